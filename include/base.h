@@ -115,6 +115,10 @@ typedef struct {
 } RowBuffer;
 PetscErrorCode RowBufferGrow(RowBuffer *, PetscInt num); /* what it holds is lost where it grows */
 PetscErrorCode RowBufferDestroy(RowBuffer *);
+/* Make room for num entries of *array, *size are there; contents are kept. */
+PetscErrorCode ArrayGrow(PetscInt num, size_t entry, PetscInt *size, void *array);
+/* PetscFree of each of `num` arrays, given by the addresses of the pointers to them. */
+PetscErrorCode FreeAll(PetscInt num, void *const pointer[]);
 
 /* ---- messages between few of many ranks (base/sparse.c) ---------------------------------------------------------- */
 

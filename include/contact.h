@@ -143,16 +143,16 @@ PetscErrorCode                 ContactHullCreate(PetscInt dim, PetscInt num, Pet
 PetscErrorCode                 ContactHullDestroy(ContactHull *);
 /* How far its part of the bodies reaches behind a facet of the surface at the reference positions, straight inwards from the facet's middle: the most of all
    its facets. part[num_facets]. Not collective. */
-PetscErrorCode ContactHullThickness(ContactHull, const ContactSurface *, const PetscInt part[], PetscReal *most);
+void ContactHullThickness(ContactHull, const ContactSurface *, const PetscInt part[], PetscReal *most);
 /* From now on the pair's searches pass over far sides. part, mortar_part: parts of the facets of its surfaces, which need reference positions; borrowed, as
    is the hull. deepest: overlaps are looked for down to here, whatever the search distance is; 0: down to the search distance. Not collective. */
-PetscErrorCode ContactPairSetHull(ContactPair, ContactHull, const PetscInt part[], const PetscInt mortar_part[], PetscReal deepest);
+void ContactPairSetHull(ContactPair, ContactHull, const PetscInt part[], const PetscInt mortar_part[], PetscReal deepest);
 
 /* A pair of one surface with itself (spec.self): both surfaces are given alike, facet by facet. Of two facets that face each other the one with the lower
    number precedence[num_facets] is the nonmortar one; no two are alike. What a facet sees first and that does not follow it hides what is behind, and covers
    nothing; nor do facets that are not met[num_facets] (NULL: all are). NULL (as created): all facets see all that face them, both ways. Borrowed. Not
    collective. */
-PetscErrorCode ContactPairSetPrecedence(ContactPair, const PetscInt precedence[], const PetscBool met[]);
+void ContactPairSetPrecedence(ContactPair, const PetscInt precedence[], const PetscBool met[]);
 
 /* Facets whose multiplier functions are made together, those that share a corner that hangs: root[num_facets], the first of them. Not collective. */
 PetscErrorCode ContactFacetGroups(const ContactSurface *, PetscInt root[]);
@@ -163,14 +163,14 @@ PetscErrorCode ContactPairSetCarriers(ContactPair, const ContactSurface *nonmort
    src/contact/function/blend.c, m_j = softness times reference measure of j's function on the facet. A term z.S z / 2 of the Lagrangian, whose derivative by
    positions belongs to the forces. softness[nonmortar num_nodes]: facet size / Young's modulus, averaged on a facet; borrowed. Without it there are no
    compliances. Not collective. */
-PetscErrorCode ContactPairSetSoftness(ContactPair, const PetscReal softness[]);
+void ContactPairSetSoftness(ContactPair, const PetscReal softness[]);
 /* Nodes of the nonmortar side that other pairs constrain as well (NULL: none): what ContactPairTie and ContactPairKeepPoints find of their facets has a
    compliance from then on, the largest one of a facet that is covered in part. Borrowed. Not collective. */
-PetscErrorCode ContactPairSetShared(ContactPair, const PetscBool shared[]);
+void ContactPairSetShared(ContactPair, const PetscBool shared[]);
 /* Lengths along the rays that count as no gap (NULL: 0): gt_j = int psi_j (s - closed / |d|) d.n, closed linear on each facet between its corners. Forces and
    derivatives are those of what is left. closed[nonmortar num_nodes], of corners that do not hang, user's units of length; borrowed, and to be set again when a
    number changes. Not collective. */
-PetscErrorCode ContactPairSetClosed(ContactPair, const PetscReal closed[]);
+void ContactPairSetClosed(ContactPair, const PetscReal closed[]);
 /* Mean of z by m on a facet with compliance; (S z)_j = kappa m_j (z_j - mean). */
 static inline PetscReal ContactFacetMean(const ContactFacet *f, const PetscInt node[], const PetscReal z[])
 {
@@ -190,7 +190,7 @@ static inline PetscReal ContactFacetYield(const ContactFacet *f, const PetscInt 
 }
 /* Nodes that carry no multiplier, of facets of higher order: the pressure there is z_n = sum_k weight[k] z_donor[k], k from first[n] to first[n+1] (empty:
    nothing says), since their functions went to those nodes. All NULL: facets of order 1. Valid as long as the carriers. Not collective. */
-PetscErrorCode ContactPairGetDonors(ContactPair, const PetscInt **first, const PetscInt **donor, const PetscReal **weight);
+void ContactPairGetDonors(ContactPair, const PetscInt **first, const PetscInt **donor, const PetscReal **weight);
 
 /* Candidate search at the given positions: for each listed nonmortar facet (facets[num], those this rank owns) the mortar facets it may meet while no
    node moves more than `margin`: facet normals N_s . N_m < -0.3, -depth < g < distance somewhere on the pair (margin > 0: more, but no deeper); depth is the
@@ -201,13 +201,13 @@ PetscErrorCode ContactPairSearch(ContactPair, const ContactSurface *nonmortar, c
                                  PetscReal distance, PetscReal margin);
 /* Do searches from now on go on from the one that was kept last, with the same list of facets? Pairs of facets that it found stay as long as their normals
    oppose at all and none has gone in deeper than the margin: what it takes to be found, which changes by jumps, is asked once. Off to begin with. */
-PetscErrorCode ContactPairGoOn(ContactPair, PetscBool yes);
+void ContactPairGoOn(ContactPair, PetscBool yes);
 /* The last search is that of an iterate, from which those of trial steps go on, however many there are; one that does not go on is kept by itself. */
-PetscErrorCode ContactPairKeepSearch(ContactPair);
+void ContactPairKeepSearch(ContactPair);
 
 /* How deep the last search found sides of another body that it took for far ones, though they are not clearly as deep as both bodies measure: overlaps beyond
    what can be told. 0: none. Not collective. */
-PetscErrorCode ContactPairGetUntold(ContactPair, PetscReal *depth);
+void ContactPairGetUntold(ContactPair, PetscReal *depth);
 
 /* Boxes (xmin, ymin, zmin, xmax, ymax, zmax), at most `most`, that meet the box (ContactFacetBox) of every mortar facet that ContactPairSearch with the same
    arguments may find; either both sides have facets of higher order or none. Not collective. */
@@ -217,10 +217,10 @@ void           ContactFacetBox(const ContactSurface *, PetscInt facet, PetscReal
 PetscBool      ContactBoxesMeet(const PetscReal a[6], const PetscReal b[6]);
 /* The pictures of mortar corners that hang in the middle of an edge follow those of its ends,
    parent[mortar num_nodes][2], -1: does not hang. After a search. Not collective. */
-PetscErrorCode ContactPairGetMortarParents(ContactPair, const PetscInt **parent);
+const PetscInt *ContactPairGetMortarParents(ContactPair);
 /* Candidates of the last search: mortar facets of listed facet i are candidate[start[i] .. start[i+1]), ascending. Set: the search went on elsewhere, these
    facets are evaluated here (and listed from now on) with these candidates. */
-PetscErrorCode ContactPairGetCandidates(ContactPair, const PetscInt **start, const PetscInt **candidate);
+void           ContactPairGetCandidates(ContactPair, const PetscInt **start, const PetscInt **candidate);
 PetscErrorCode ContactPairSetCandidates(ContactPair, const ContactSurface *nonmortar, PetscInt num, const PetscInt facets[], const PetscInt start[],
                                         const PetscInt candidate[]);
 
@@ -232,17 +232,17 @@ PetscErrorCode ContactPairEvaluate(ContactPair, const ContactSurface *nonmortar,
                                    PetscBool derivatives, PetscBool hessian, PetscInt *num, const ContactFacet **facets, PetscBool *failed);
 /* From now on normals are frozen (or follow the surface again): first derivatives are those at fixed directions of the nonmortar side and a fixed segmentation,
    gaps and weights do not change, there are no Hessians. Where gaps are wide against facets that tells more than the derivative itself. Not collective. */
-PetscErrorCode ContactPairFreezeNormals(ContactPair, PetscBool frozen);
+void ContactPairFreezeNormals(ContactPair, PetscBool frozen);
 /* Forces of facets in space that are covered in part are those of a frozen segmentation (`push`), without the motion of lines of the mortar side; from now on
    those of all facets of higher order, in the plane of those covered in part, or (as created) not. Gaps, weights and their derivatives do not change. Not
    collective. */
-PetscErrorCode ContactPairFreezeSegmentation(ContactPair, PetscBool frozen);
+void ContactPairFreezeSegmentation(ContactPair, PetscBool frozen);
 /* Friction. Tangential tractions traction[dim - 1][nonmortar num_nodes] of evaluations from now on, borrowed (NULL: none), on the mortar side, in the plane
    along the nonmortar facets, in space along the node's two axes, which turn with the body: results have `shear`, and Hessians the derivatives of those forces
    too, not symmetric (theory (5.10)). Not collective. */
-PetscErrorCode ContactPairSetTraction(ContactPair, const PetscReal traction[]);
+void ContactPairSetTraction(ContactPair, const PetscReal traction[]);
 /* Space: axis[nonmortar num_nodes][3] across the normal is the node's first axis, 0: the pair chooses one; NULL: all of them. Borrowed. Not collective. */
-PetscErrorCode ContactPairSetAxes(ContactPair, const PetscReal axis[]);
+void ContactPairSetAxes(ContactPair, const PetscReal axis[]);
 /* Space: the axes of a node at the last evaluation; NaN without known neighbours. Not collective. */
 PetscErrorCode ContactPairGetTangents(ContactPair, PetscInt node, PetscReal e[2][3]);
 /* Evaluate at these positions and keep the points of the integration with their partners. Then: slip since there (theory (5.9)) of every facet kept, as results
@@ -265,11 +265,11 @@ PetscErrorCode ContactPairSlipPoints(ContactPair, const ContactSurface side[2], 
 /* Evaluate at these positions, with `tie` in the results. Valid until the next evaluation. Not collective. */
 PetscErrorCode ContactPairTie(ContactPair, const ContactSurface *nonmortar, const ContactSurface *mortar, PetscInt *num, const ContactFacet **facets,
                               PetscBool *failed);
-PetscErrorCode ContactPairGetSegments(ContactPair, PetscInt *num, const ContactSegment **segments);
+void           ContactPairGetSegments(ContactPair, PetscInt *num, const ContactSegment **segments);
 /* Nodal normals of the last evaluation [num_nodes][dim]; NaN at nodes with neighbours that are not known here. */
-PetscErrorCode ContactPairGetNormals(ContactPair, const PetscReal **normals);
+const PetscReal *ContactPairGetNormals(ContactPair);
 /* Bernstein polynomials of a facet of this order in m dimensions at xi of [-1, 1]^m, in the order of its lattice. */
 void ContactBernstein(PetscInt m, PetscInt order, const PetscReal xi[], PetscReal B[]);
 /* Overlaps of the last evaluation that could not be used: mortar facets whose corners have no picture, lie folded over or are not convex in the facet's view,
    or that rays miss. */
-PetscErrorCode ContactPairGetDegenerate(ContactPair, PetscInt *num);
+PetscInt ContactPairGetDegenerate(ContactPair);

@@ -108,13 +108,13 @@ PetscErrorCode ForestCreateFromCoarse(MPI_Comm, CoarseMesh *mesh, PetscInt num_f
                                       PetscInt refine, Forest *);
 PetscErrorCode ForestDestroy(Forest *);
 
-PetscErrorCode ForestGetCoarse(Forest, const CoarseMesh **);
+const CoarseMesh *ForestGetCoarse(Forest);
 /* part[num_cells]: cells that share a vertex, and those that hang together by others, have the same number below *num. Not collective. */
 PetscErrorCode ForestCoarseParts(const CoarseMesh *, PetscInt *num, PetscInt part[]);
 /* The box of all geometry nodes. Not collective. */
-void           ForestCoarseBox(const CoarseMesh *, PetscReal lo[3], PetscReal hi[3]);
-PetscErrorCode ForestGetTables(Forest, const ForestTables **);
-MPI_Comm       ForestComm(Forest);
+void                ForestCoarseBox(const CoarseMesh *, PetscReal lo[3], PetscReal hi[3]);
+const ForestTables *ForestGetTables(Forest);
+MPI_Comm            ForestComm(Forest);
 
 /* New forest: splits, merges where permitted, 1-irregular closure (also across edges; conflicting anisotropic splits forced), repartition.
    leaf_weight[num_leaves] of the *old* leaves (NULL: 1) is inherited for METIS; contact couplings: num_pairs pairs of old leaves that face each

@@ -42,15 +42,15 @@ PetscErrorCode HPSpaceSetUp(HPSpace, const int8_t fixed[], PetscInt num_frames, 
 PetscErrorCode HPSpaceDestroy(HPSpace *);
 /* Raise order[num_leaves] (replicated) until no two leaves that share a facet, or a part of one, differ by more than `difference`; leaves with a mark in
    fixed[num_leaves] stay as they are, whatever their neighbours. Not collective. */
-PetscErrorCode HPOrdersLimit(Forest, PetscInt difference, const int8_t fixed[], int8_t order[]);
-PetscErrorCode HPSpaceGetTables(HPSpace, const HPTables **);
-PetscErrorCode HPSpaceGetForest(HPSpace, Forest *);
-PetscErrorCode HPSpaceGetDM(HPSpace, DM *); /* leaf DM clone with section and constraints */
+PetscErrorCode  HPOrdersLimit(Forest, PetscInt difference, const int8_t fixed[], int8_t order[]);
+const HPTables *HPSpaceGetTables(HPSpace);
+Forest          HPSpaceGetForest(HPSpace);
+DM              HPSpaceGetDM(HPSpace); /* leaf DM clone with section and constraints */
 /* Global index of each local dof, [num_nodes*dim]: -1 prescribed or hanging. Numbering of the space's own global vector. */
 PetscErrorCode HPSpaceGetGlobalDofs(HPSpace, const PetscInt **);
 PetscErrorCode HPSpaceGetFrame(HPSpace, PetscInt node, const PetscReal **frame); /* NULL: Cartesian */
 /* Order of a global entity, in this rank's chart or not: the highest along its axes; of a cell its leaf_order. */
-PetscErrorCode HPSpaceGetOrder(HPSpace, PetscInt entity, PetscInt *order);
+PetscInt HPSpaceGetOrder(HPSpace, PetscInt entity);
 /* Orders of a global entity along the axes of its frame; its nodes are the products of their interior Gauss-Lobatto points, lexicographic. Not collective. */
 PetscErrorCode HPSpaceGetAxisOrders(HPSpace, PetscInt entity, PetscInt orders[3]);
 /* Does any cell of any rank have a lower order than its leaf_order along some axis? The nodes inside such a cell cannot be condensed. Not collective. */

@@ -105,7 +105,7 @@ typedef struct {
 PetscErrorCode InterfaceCreate(HPSpace, Mechanics, const MechanicsSpec *, const int8_t fixed[], PetscInt num, const ContactSpec[], Interface *);
 PetscErrorCode InterfaceDestroy(Interface *);
 /* Of linearisations, from now on; borrowed. Not collective. */
-PetscErrorCode InterfaceSetForm(Interface, const Form *);
+void InterfaceSetForm(Interface, const Form *);
 
 /* Coefficients of friction, interferences and ramped initial overlaps are those of time t from now on; before, of t = 0. Not collective. */
 PetscErrorCode InterfaceSetTime(Interface, PetscReal t);
@@ -131,9 +131,9 @@ PetscErrorCode InterfaceNumber(Interface, PetscInt counts[]);
    that the matrix lacks, the first of its vector. Collective. */
 PetscErrorCode InterfaceSetRows(Interface, PetscInt counts[], const PetscInt offset[], const PetscInt row[], PetscInt num_inner);
 
-PetscErrorCode InterfaceGetContact(Interface, PetscInt pair, const ContactView **);
+const ContactView *InterfaceGetContact(Interface, PetscInt pair);
 /* Time on this rank in searches and evaluations of a pair, and of all; room: has the pair ever had room in the matrix for what faces it? Not collective. */
-PetscErrorCode InterfaceCost(Interface, PetscInt pair, PetscReal *seconds, PetscReal *all, PetscBool *room);
+void InterfaceCost(Interface, PetscInt pair, PetscReal *seconds, PetscReal *all, PetscBool *room);
 /* The same with the values of all nodes (forces too) and `normal` on every rank: one reduction over both surfaces, for output and the like. They stay valid
    until the next call for this pair. Collective. */
 PetscErrorCode InterfaceGatherContactToAll(Interface, PetscInt pair, const ContactView **view);
@@ -148,7 +148,7 @@ typedef struct {
   PetscInt  evaluations, searches, messages, search_messages;
   PetscReal bytes, search_bytes;
 } ContactTraffic;
-PetscErrorCode InterfaceGetTraffic(Interface, ContactTraffic *);
+void InterfaceGetTraffic(Interface, ContactTraffic *);
 /* Components z[num_z][nonmortar.num_nodes], from the second on, of tangential tractions on the mortar side traction[..][3] along the axes of the last
    evaluation, friction in space: of this rank's own nodes. Not collective. */
 PetscErrorCode InterfaceResolveTractions(Interface, PetscInt pair, const PetscReal traction[], PetscReal z[]);
@@ -160,7 +160,7 @@ PetscErrorCode InterfaceGetMultipliers(Interface, PetscInt pair, Vec x, PetscRea
 /* What room facets of a pair have been given in the matrix so far: facet f for nodes node[first[f] .. first[f+1]), mortar ones as ~node; borrowed, of facets
    evaluated on this rank; first NULL: none yet. Set: that room again, of all facets of the pair (those evaluated elsewhere are not looked at). Not
    collective. */
-PetscErrorCode InterfaceGetPattern(Interface, PetscInt pair, const PetscInt **first, const PetscInt **node);
+void           InterfaceGetPattern(Interface, PetscInt pair, const PetscInt **first, const PetscInt **node);
 PetscErrorCode InterfaceSetPattern(Interface, PetscInt pair, const PetscInt first[], const PetscInt node[]);
 /* The deepest overlap of a pair's sides, at the reference positions or where they are now, that the search passes over since it cannot tell it from the far
    side of a body behind; 0: none. The next solve searches anew. Collective. */
@@ -188,21 +188,21 @@ PetscErrorCode InterfaceGetSlipPoints(Interface, PetscInt pair, PetscInt *num, C
    of x and on a new mesh. goes_on: from the one kept (ContactPairGoOn). Collective. */
 PetscErrorCode InterfaceSearch(Interface, Vec x, const PetscReal u[], PetscBool goes_on);
 /* The last search is that of an iterate: searches that go on do so from it (ContactPairKeepSearch). Not collective. */
-PetscErrorCode InterfaceKeepSearch(Interface);
+void InterfaceKeepSearch(Interface);
 /* Gaps, weights, activity and facets at the multipliers of x and the displacements u, with derivatives of the gaps, and with Hessians too: then at the
    directions that the form wants. pending: prescribed motion still to come. Views show the last evaluation. *failed stays unless it fails. Collective. */
 PetscErrorCode InterfaceEvaluate(Interface, Vec x, const PetscReal u[], PetscReal pending, PetscBool hessian, PetscBool *failed);
 /* Of the last evaluation: forces off a local array; multipliers' rows into this rank's part of a vector; square of what round-off of positions leaves in both,
    this rank's part. Forces are collective. */
 PetscErrorCode InterfaceForces(Interface, PetscReal local[]);
-PetscErrorCode InterfaceRows(Interface, PetscReal r[]);
+void           InterfaceRows(Interface, PetscReal r[]);
 PetscReal      InterfaceNoise2(Interface);
 /* Force and moment about the origin on the nonmortar side of a pair, on all ranks. Collective. */
 PetscErrorCode InterfaceResultant(Interface, PetscInt pair, PetscReal force[3], PetscReal moment[3]);
 /* Note: how deep the sides of each pair are in each other at most, a mean gap over a multiplier's function; the deepest of all pairs. Leave: one side
    of each pair is taken to lie further in by this share of it; at first: 0. With finite kinematics. */
 PetscErrorCode InterfaceNoteOverlap(Interface, PetscReal *deepest);
-PetscErrorCode InterfaceLeaveOverlap(Interface, PetscReal share);
+void           InterfaceLeaveOverlap(Interface, PetscReal share);
 
 /* ---- tangent, of the last evaluation -------------------------------------------------------------------------------------------- */
 
@@ -234,7 +234,7 @@ PetscErrorCode InterfaceFindSliding(Interface, PetscReal pending, PetscBool swap
 PetscErrorCode InterfaceFindWide(Interface, uint64_t *pairs);
 /* carryforce.c: weights at the state that was evaluated last are kept; then, after a step dx along which weights have grown where facets were covered in part,
    the change of the multipliers there is taken as one of forces. changed: there was one. Collective. */
-PetscErrorCode InterfaceKeepWeights(Interface);
+void           InterfaceKeepWeights(Interface);
 PetscErrorCode InterfaceCarryForces(Interface, Vec dx, PetscBool *changed);
 /* Pairs that have borne nothing yet. */
 PetscErrorCode InterfaceFindUntouched(Interface, uint64_t *pairs);

@@ -56,12 +56,12 @@ PetscErrorCode ProblemFindFolded(Problem, Vec x, int8_t folded[]);
 /* MechanicsFindConflict over all ranks. Collective. */
 PetscErrorCode ProblemFindConflict(Problem, PetscReal t, size_t size, char words[]);
 
-PetscErrorCode ProblemGetScene(Problem, const SceneData **);
-Forest         ProblemForest(Problem);
-HPSpace        ProblemSpace(Problem);
-Mechanics      ProblemMechanics(Problem);
-PetscErrorCode ProblemCreateVector(Problem, Vec *);
-PetscErrorCode ProblemGetMatrix(Problem, Mat *);
+const SceneData *ProblemGetScene(Problem);
+Forest           ProblemForest(Problem);
+HPSpace          ProblemSpace(Problem);
+Mechanics        ProblemMechanics(Problem);
+PetscErrorCode   ProblemCreateVector(Problem, Vec *);
+PetscErrorCode   ProblemGetMatrix(Problem, Mat *);
 
 /* Copies of a state's history, which residual and tangent start from, of its element pressures, for stress at points, and of its form. Whoever is given a
    state of this problem sets it. Collective. */
@@ -88,7 +88,7 @@ PetscErrorCode ProblemSetViscosity(Problem, PetscReal rate, Vec from);
 PetscErrorCode ProblemViscousWork(Problem, Vec x, PetscReal *work);
 
 /* Are pressures of incompressible cells among the unknowns? Then neither condensation nor multigrid is to be had. */
-PetscErrorCode ProblemIsIncompressible(Problem, PetscBool *);
+PetscBool ProblemIsIncompressible(Problem);
 /* Set them in x: those of this rank's cells, as MechanicsSetPressure takes them. */
 PetscErrorCode ProblemSetPressures(Problem, const PetscReal pressure[], Vec x);
 
@@ -100,7 +100,7 @@ PetscErrorCode ProblemSetDisplacement(Problem, const PetscReal local[], Vec x);
 
 /* ---- scalars (scalar.c) and the path of equilibria (path.c) ------------------------------------------------------------------ */
 
-PetscErrorCode ProblemNumScalars(Problem, PetscInt *num);
+PetscInt       ProblemNumScalars(Problem);
 PetscErrorCode ProblemGetScalars(Problem, Vec x, PetscReal values[]); /* on all ranks. Collective. */
 PetscErrorCode ProblemSetScalars(Problem, const PetscReal values[], Vec x);
 /* Of the boundaries of MechanicsGetControls: the pressure found, and what it follows, in the unit of its target (change of volume, mean displacement).
@@ -112,12 +112,12 @@ PetscErrorCode ProblemDistance(Problem, Vec from, Vec to, PetscReal *distance);
 /* load.control: arc_length. Time is an unknown: of the state it is as set (Hold; the start), or found such that the state lies on a plane across the
    direction from -> to, through `to` (Follow) or further by `advance` (Advance). *length: of the way from -> to. Collective. */
 PetscErrorCode ProblemFollow(Problem, Vec from, Vec to, PetscReal *length);
-PetscErrorCode ProblemAdvance(Problem, PetscReal advance);
+void           ProblemAdvance(Problem, PetscReal advance);
 /* The direction of the path that is followed, borrowed, NULL: none is; and to follow it from `to` on in another problem of the same mesh. Collective. */
-PetscErrorCode ProblemGetPath(Problem, Vec *direction);
+void           ProblemGetPath(Problem, Vec *direction);
 PetscErrorCode ProblemFollowAlong(Problem, Vec direction, Vec to);
-PetscErrorCode ProblemHold(Problem);
-PetscErrorCode ProblemIsFollowing(Problem, PetscBool *following);
+void           ProblemHold(Problem);
+PetscBool      ProblemIsFollowing(Problem);
 /* Time of a state: its unknown, or as set. Collective. */
 PetscErrorCode ProblemGetTime(Problem, Vec x, PetscReal *t);
 
@@ -163,10 +163,10 @@ PetscErrorCode ProblemTangent(Problem, Vec x, const PetscReal pressure[], Vec li
 /* Symmetric form of the tangent: same solution, symmetric matrix, right-hand side by ProblemRightSide; its multiplier columns are exact to second order.
    Only for problems whose bulk tangent is symmetric (ProblemIsSymmetric): no follower pressures, no plastic flow, no scalars; and where no active constraint
    holds the rim of a mortar side (ContactFacet.push). Get: was the last tangent in it? */
-PetscErrorCode ProblemGetSymmetric(Problem, PetscBool *symmetric);
-PetscErrorCode ProblemIsSymmetric(Problem, PetscBool *possible);
+PetscBool ProblemGetSymmetric(Problem);
+PetscBool ProblemIsSymmetric(Problem);
 /* Would it be, if this material had a symmetric tangent? */
-PetscErrorCode ProblemIsSymmetricBut(Problem, const MaterialSpec *, PetscBool *possible);
+PetscBool ProblemIsSymmetricBut(Problem, const MaterialSpec *);
 /* rhs = -(r + lift), condensed like the last tangent, multiplier rows in its form; r of the problem, lift and rhs of the matrix. */
 PetscErrorCode ProblemRightSide(Problem, Vec r, Vec lift, Vec rhs);
 /* Active-set passes against the last tangent: given the solution dx of tangent . dx = -rhs, decide anew which constraints are active, rewrite their rows in the
@@ -197,11 +197,11 @@ PetscErrorCode ProblemPending(Problem, PetscReal *remaining);
 /* overlap.c. How deep the sides of pairs are in each other at x, at most (unit: length). Leave: from now on one side of each pair lies further in by this share
    of its own; as created, and after Note: 0. Collective. */
 PetscErrorCode ProblemNoteOverlap(Problem, Vec x, PetscReal *deepest);
-PetscErrorCode ProblemLeaveOverlap(Problem, PetscReal share);
+void           ProblemLeaveOverlap(Problem, PetscReal share);
 
 /* energy.c. The augmented Lagrangian Phi(u; lambda), with penalties kappa_j = factor c_j. HasEnergy: is there one? Not with follower loads, plastic flow,
    pressures among the unknowns, small kinematics, viscous regularisation. Not collective. */
-PetscErrorCode ProblemHasEnergy(Problem, PetscBool *yes);
+PetscBool ProblemHasEnergy(Problem);
 /* Phi at the displacements of x and the prescribed motion as applied, and its gradient (NULL: not wanted; 0 but for displacements). lambda: multipliers, in a
    vector of the problem whose other entries are not looked at. The multipliers of x become max(0, lambda_j - kappa_j g_j). merit: the largest number where
    status->bad. Collective. */
@@ -219,7 +219,7 @@ PetscErrorCode ProblemMeritRecover(Problem, Vec y, Vec dx);
 PetscErrorCode ProblemForces(Problem, const State *, PetscReal reaction[][3], PetscReal support[][3], Resultant body[], PetscReal force[][3],
                              PetscReal moment[][3], ProblemStatus *);
 /* Displacement dofs and multipliers of this rank, in that order in its part of the matrix; dimension. Not collective. */
-PetscErrorCode ProblemGetBlocks(Problem, PetscInt *num_u, PetscInt *num_z, PetscInt *dim);
+void ProblemGetBlocks(Problem, PetscInt *num_u, PetscInt *num_z, PetscInt *dim);
 /* For multigrid methods, the space of order 1 on the same mesh in whole blocks: interpolation from the dofs of all vertices that have a free one (dim of each)
    to the displacement dofs of this problem; ones on the diagonal of the prescribed ones among them; their rigid-body modes; are there nodes
    that are no vertices? Collective. */
@@ -227,8 +227,8 @@ PetscErrorCode ProblemProlongation(Problem, Mat *prolongation, Mat *pinned, MatN
 /* Negative eigenvalues of the matrix in its symmetric form at a stable equilibrium: one for each constraint (pressures of contact, open or not, and of
    incompressible cells), less those that condensation met at the last tangent. Collective. */
 PetscErrorCode ProblemNumNegative(Problem, PetscInt *num);
-PetscErrorCode ProblemNumDofs(Problem, PetscInt *free_dofs); /* global: u, z and pi */
+PetscInt       ProblemNumDofs(Problem); /* global: u, z and pi */
 /* Is there a body that supports do not hold? Not collective. */
-PetscErrorCode ProblemHasFreeBody(Problem, PetscBool *yes);
+PetscBool ProblemHasFreeBody(Problem);
 /* Axes along which no support holds the body or any that is joined to it: bit c for axis c; turns: it is held along all, and can turn. Not collective. */
 PetscErrorCode ProblemFreeAxes(Problem, PetscInt body, PetscInt *axes, PetscBool *turns);

@@ -53,7 +53,7 @@ PetscErrorCode SolverPrintHelp(MPI_Comm);
 PetscErrorCode SolverSolve(Solver, State *, SolverReport *);
 /* From now on slide_predictor carries the bodies of pairs with friction where else it would not, and does not where it would; plastic material begins elastic
    and goes on with its secant stiffness. Not collective. */
-PetscErrorCode SolverSwapPredictor(Solver, PetscBool swap);
+void SolverSwapPredictor(Solver, PetscBool swap);
 
 /* The same, where SolverSolve finds nothing, by descent: from the state at the start of the step, with the prescribed motion put in by the bodies alone, down
    to a minimum of the augmented Lagrangian (ProblemMerit), each iterate lower than the one before; multipliers follow; then SolverSolve from there, as a rule
@@ -62,5 +62,5 @@ PetscErrorCode SolverDescend(Solver, State *, SolverReport *);
 /* From an equilibrium that is unstable (report.unstable) to one that is stable, or less so: along the eigenvector of the lowest eigenvalue, where the energy
    falls more, and by descent. Not converged: there is no such eigenvalue, or no equilibrium was found. HasDescent: is there an energy, and are there the
    factors? Collective. */
-PetscErrorCode SolverHasDescent(Solver, PetscBool *yes);
+PetscBool      SolverHasDescent(Solver);
 PetscErrorCode SolverStabilise(Solver, State *, SolverReport *);

@@ -75,15 +75,14 @@ static PetscErrorCode IsFolded_Private(Problem problem, const State *carried, Pe
    it was carried over are folded. */
 static PetscErrorCode Reequilibrate_Private(App *app, PetscInt *iterations, PetscBool *ok, PetscBool *folded)
 {
-  Level         *l      = &app->level;
-  const PetscInt before = app->path.newton_iterations;
-  PathLoop       load   = {.metric = &PathTime, .origin = l->accepted.t, .stop = l->state.t};
-  State          carried;
-  SolverReport   report;
-  PetscBool      following;
+  Level          *l      = &app->level;
+  const PetscInt  before = app->path.newton_iterations;
+  PathLoop        load   = {.metric = &PathTime, .origin = l->accepted.t, .stop = l->state.t};
+  State           carried;
+  SolverReport    report;
+  const PetscBool following = ProblemIsFollowing(l->problem);
 
   PetscFunctionBegin;
-  PetscCall(ProblemIsFollowing(l->problem, &following));
   if (following) {
     load = (PathLoop){.metric = &PathArc};
     PetscCall(ProblemDistance(l->problem, l->accepted.x, l->state.x, &load.origin));

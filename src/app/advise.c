@@ -29,19 +29,17 @@ static PetscErrorCode Worst_Private(const App *app)
 {
   const Estimate     *e     = &app->estimate;
   const PetscReal     mid[] = {0.5, 0.5, 0.5};
-  const ForestTables *t;
-  const CoarseMesh   *mesh;
+  const ForestTables *t     = ForestGetTables(app->level.forest);
   PetscInt            worst = 0, half;
   PetscReal           X[3];
 
   PetscFunctionBegin;
-  PetscCall(ForestGetTables(app->level.forest, &t));
   if (!app->estimated || e->num_leaves != t->num_leaves || !(e->total > 0)) PetscFunctionReturn(PETSC_SUCCESS);
   for (PetscInt l = 1; l < e->num_leaves; ++l)
     if (e->eta2[l] > e->eta2[worst]) worst = l;
   PetscCall(Half_Private(e, &half));
   if (half * half > e->num_leaves) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(ForestGetCoarse(app->level.forest, &mesh));
+  const CoarseMesh *mesh = ForestGetCoarse(app->level.forest);
   PetscCall(ForestMapPoint(app->level.forest, worst, mid, X));
   PetscCall(PetscPrintf(app->comm,
                         "note: half of the squared error estimate is in %" PetscInt_FMT " of %" PetscInt_FMT
@@ -70,11 +68,10 @@ static PetscErrorCode Slips_Private(const App *app)
 /* Rigid bodies that nothing held when the run gave up: contact alone bears their loads. */
 static PetscErrorCode Loose_Private(const App *app)
 {
-  const CoarseMesh *mesh;
+  const CoarseMesh *mesh = ForestGetCoarse(app->level.forest);
   PetscInt         *axes;
 
   PetscFunctionBegin;
-  PetscCall(ForestGetCoarse(app->level.forest, &mesh));
   PetscCall(PetscMalloc1(mesh->num_bodies, &axes));
   PetscCall(AdriftFind(app->level.problem, app->most_scale, axes));
   for (PetscInt b = 0; b < mesh->num_bodies; ++b)
@@ -159,11 +156,9 @@ const char *AppAxesName(PetscInt axes)
 
 PetscErrorCode AppTellFree(const App *app)
 {
-  const CoarseMesh *mesh;
-
   PetscFunctionBegin;
   for (PetscInt i = 0; i < app->data->num_contacts; ++i) PetscCall(TellOverlap_Private(app, i, PETSC_TRUE));
-  PetscCall(ForestGetCoarse(app->level.forest, &mesh));
+  const CoarseMesh *mesh = ForestGetCoarse(app->level.forest);
   for (PetscInt b = 0; b < mesh->num_bodies; ++b) {
     PetscInt  axes;
     PetscBool turns;

@@ -9,13 +9,10 @@ static PetscInt Splits_Private(const ForestTables *t, PetscInt leaf)
 
 PetscErrorCode AppNoteFirstMesh(App *app, Forest forest)
 {
-  const CoarseMesh   *coarse;
-  const ForestTables *t;
-
   PetscFunctionBegin;
   if (!AppIsAdaptive(app) || app->data->adapt.repeat != REPEAT_STEP) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(ForestGetCoarse(forest, &coarse));
-  PetscCall(ForestGetTables(forest, &t));
+  const CoarseMesh   *coarse = ForestGetCoarse(forest);
+  const ForestTables *t      = ForestGetTables(forest);
   PetscCall(PetscMalloc1(coarse->num_cells, &app->first_level));
   for (PetscInt c = 0; c < coarse->num_cells; ++c) app->first_level[c] = INT8_MAX;
   for (PetscInt l = 0; l < t->num_leaves; ++l) {
@@ -36,20 +33,19 @@ static PetscBool MayMerge_Private(const App *app, const ForestTables *t, PetscIn
 /* Merge one generation of cells; *merged false: there are none, or they must stay, and so does the level. Else that at hand before is the caller's. */
 static PetscErrorCode Merge_Private(App *app, PetscBool *merged)
 {
-  const Level         before = app->level;
-  const ForestTables *t, *coarser;
+  const Level         before  = app->level;
+  const ForestTables *t       = ForestGetTables(before.forest);
   const char         *refused = NULL;
   MarkList            list;
   PetscInt            num = 0;
 
   PetscFunctionBegin;
-  PetscCall(ForestGetTables(before.forest, &t));
   PetscCall(PetscCalloc2(t->num_leaves, &list.split, t->num_leaves, &list.coarsen));
   for (PetscInt l = 0; l < t->num_leaves; ++l) num += list.coarsen[l] = (int8_t)MayMerge_Private(app, t, l);
   if (num) PetscCall(AppMoveTo(app, &list, &refused));
   PetscCall(PetscFree2(list.split, list.coarsen));
-  PetscCall(ForestGetTables(app->level.forest, &coarser));
-  *merged = (PetscBool)(coarser->num_leaves < t->num_leaves);
+  const ForestTables *coarser = ForestGetTables(app->level.forest);
+  *merged                     = (PetscBool)(coarser->num_leaves < t->num_leaves);
   if (*merged || app->level.forest == before.forest) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(LevelDestroy(&app->level)); /* sides that would hang from cells twice as small had them split again */
   app->level = before;
@@ -58,11 +54,10 @@ static PetscErrorCode Merge_Private(App *app, PetscBool *merged)
 
 static PetscErrorCode Tell_Private(const App *app, Forest fine)
 {
-  const ForestTables *before, *after;
+  const ForestTables *before = ForestGetTables(fine);
+  const ForestTables *after  = ForestGetTables(app->level.forest);
 
   PetscFunctionBegin;
-  PetscCall(ForestGetTables(fine, &before));
-  PetscCall(ForestGetTables(app->level.forest, &after));
   PetscCall(PetscPrintf(
       app->comm, "note: no equilibrium was found from t = %g on the %" PetscInt_FMT " cells of the adapted mesh; on %" PetscInt_FMT " cells there is one\n",
       (double)app->level.accepted.t, before->num_leaves, after->num_leaves));

@@ -32,15 +32,15 @@ static PetscErrorCode Mine_Private(Problem problem, PetscInt num_contacts, Petsc
 
   PetscFunctionBegin;
   for (PetscInt i = 0; i < num_contacts; ++i) {
-    PetscCall(InterfaceGetContact(ProblemInterface(problem), i, &v));
-    PetscCall(ContactPairGetSegments(v->pair, &n, &segments));
+    v = InterfaceGetContact(ProblemInterface(problem), i);
+    ContactPairGetSegments(v->pair, &n, &segments);
     count += n;
   }
   PetscCall(PetscMalloc1(count, pairs));
   *num = 0;
   for (PetscInt i = 0; i < num_contacts; ++i) {
-    PetscCall(InterfaceGetContact(ProblemInterface(problem), i, &v));
-    PetscCall(ContactPairGetSegments(v->pair, &n, &segments));
+    v = InterfaceGetContact(ProblemInterface(problem), i);
+    ContactPairGetSegments(v->pair, &n, &segments);
     for (PetscInt s = 0; s < n; ++s, ++*num) {
       (*pairs)[*num][0] = v->nonmortar.facet_leaf[segments[s].facet];
       (*pairs)[*num][1] = v->mortar.facet_leaf[segments[s].mortar_facet];

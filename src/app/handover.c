@@ -24,18 +24,17 @@ PetscErrorCode AppCheckHandOver(void)
 
 PetscErrorCode AppHandOver(App *app)
 {
-  const Level    *l     = &app->level;
-  HPSpace         space = ProblemSpace(l->problem);
-  const HPTables *v;
-  PetscReal      *u;
-  PetscBool       set;
-  DM              dm;
-  Vec             local, x;
+  const Level *l     = &app->level;
+  HPSpace      space = ProblemSpace(l->problem);
+  PetscReal   *u;
+  PetscBool    set;
+  DM           dm;
+  Vec          local, x;
 
   PetscFunctionBegin;
   PetscCall(PetscOptionsHasName(NULL, NULL, OPTION, &set));
   if (!set) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(HPSpaceGetTables(space, &v));
+  const HPTables *v = HPSpaceGetTables(space);
   PetscCall(PetscMalloc1(v->num_nodes * v->dim, &u));
   PetscCall(ProblemLocalDisplacement(l->problem, l->accepted.x, u));
   PetscCall(HPSpaceCreateFE(space, "", &dm));

@@ -39,12 +39,10 @@ static PetscErrorCode Prepare_Private(App *app, Forest *forest)
 /* -check: what would be solved, and from what on. */
 static PetscErrorCode View_Private(App *app)
 {
-  PetscInt dofs;
-
   PetscFunctionBegin;
   PetscCall(AppCheckFiles(app));
   PetscCall(SceneView(app->scene, app->level.forest, PETSC_VIEWER_STDOUT_WORLD));
-  PetscCall(ProblemNumDofs(app->level.problem, &dofs));
+  const PetscInt dofs = ProblemNumDofs(app->level.problem);
   PetscCall(AppTellFree(app));
   PetscCall(AppTellOverlap(app));
   PetscCall(AppTellMirrors(app));
@@ -97,9 +95,7 @@ static PetscErrorCode Close_Private(App *app)
   OutputUnlock();
   PetscCall(NeedsDestroy(&app->needs));
   PetscCall(PetscFree3(app->subdivided, app->touched, app->friction));
-  PetscCall(PetscFree(app->first_level));
-  PetscCall(PetscFree(app->adrift));
-  PetscCall(PetscFree(app->missed));
+  PetscCall(FreeAll(3, (void *[]){&app->first_level, &app->adrift, &app->missed}));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -14,12 +14,11 @@ static void MarkWhole_Private(PetscInt dim, PetscInt old, MarkList *list, PetscI
 
 /* A leaf of a finer forest is inverted: it is too long for its curved side, or sides of it hang from coarser cells cut across curved ones. Those are to be
    split too; *more: there is one that was not. */
-static PetscErrorCode MarkInverted_Private(Forest finer, const ForestMap *map, PetscInt leaf, PetscInt max_cells, MarkList *list, PetscBool *more)
+static void MarkInverted_Private(Forest finer, const ForestMap *map, PetscInt leaf, PetscInt max_cells, MarkList *list, PetscBool *more)
 {
   const ForestTables *t;
 
-  PetscFunctionBegin;
-  PetscCall(ForestGetTables(finer, &t));
+  t                   = ForestGetTables(finer);
   const PetscInt size = t->dim == 2 ? 9 : 27, *first = &t->closure_offset[t->first[t->dim]], *own = &t->closure[first[leaf]];
   PetscInt       room = max_cells - t->num_leaves;
   MarkWhole_Private(t->dim, map->old_first[leaf], list, &room, more);
@@ -29,7 +28,6 @@ static PetscErrorCode MarkInverted_Private(Forest finer, const ForestMap *map, P
       if (t->parent[own[k]] == entity) MarkWhole_Private(t->dim, map->old_first[i / size], list, &room, more);
     }
   }
-  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static PetscErrorCode TellInverted_Private(App *app, PetscInt order, const PetscReal X[3])
@@ -62,7 +60,7 @@ static PetscErrorCode Create_Private(App *app, Forest forest, const int8_t old_o
   PetscCall(ProblemFindInverted(next->problem, &order, X, &leaf));
   PetscCall(ExpressionTrouble(app->comm, refused));
   if (order > 0) *refused = INVERTS;
-  if (order > 0 && spec->strategy != ADAPT_P) PetscCall(MarkInverted_Private(forest, map, leaf, spec->max_cells, list, more));
+  if (order > 0 && spec->strategy != ADAPT_P) MarkInverted_Private(forest, map, leaf, spec->max_cells, list, more);
   if (order > 0 && !*more) PetscCall(TellInverted_Private(app, order, X));
   if (*refused) PetscCall(LevelDestroy(next));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -72,7 +70,6 @@ static PetscErrorCode Create_Private(App *app, Forest forest, const int8_t old_o
    Both take the history of the accepted one, made admissible there, and slip from it; of a step that went in pieces, too. */
 static PetscErrorCode Carry_Private(const Level *old, const ForestMap *map, AdaptHistory kept, Level *next)
 {
-  PetscBool following;
   PetscReal length;
 
   PetscFunctionBegin;
@@ -90,7 +87,7 @@ static PetscErrorCode Carry_Private(const Level *old, const ForestMap *map, Adap
   PetscCall(PetscArraycpy(next->state.history, next->accepted.history, next->accepted.num_history));
   PetscCall(PetscArraycpy(next->state.before, next->accepted.before, next->accepted.num_before));
   PetscCall(PathPrescribe(next->problem, next->state.t));
-  PetscCall(ProblemIsFollowing(old->problem, &following));
+  const PetscBool following = ProblemIsFollowing(old->problem);
   if (following) PetscCall(ProblemFollow(next->problem, next->accepted.x, next->state.x, &length));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -199,7 +196,7 @@ static PetscErrorCode LeaveFolded_Private(App *app, PetscInt num_leaves, MarkLis
 
 PetscErrorCode AppRefine(App *app, const Estimate *e, MarkList *layers, RefineMode mode, PetscBool *adapted, PetscBool *refused)
 {
-  const ForestTables *t;
+  const ForestTables *t      = ForestGetTables(app->level.forest);
   MarkList            list   = *layers;
   PetscInt            marked = 1;
   PetscBool           more   = PETSC_TRUE;
@@ -208,7 +205,6 @@ PetscErrorCode AppRefine(App *app, const Estimate *e, MarkList *layers, RefineMo
   const char         *words  = NULL;
 
   PetscFunctionBegin;
-  PetscCall(ForestGetTables(app->level.forest, &t));
   if (app->data->adapt.strategy != ADAPT_H) PetscCall(PetscMalloc2(t->num_leaves, &order, t->num_leaves, &weight));
   if (!layers->split)
     PetscCall(EstimateMark(e, &app->data->adapt, app->level.forest, &list, order, &marked));

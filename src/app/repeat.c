@@ -46,8 +46,6 @@ static void Begin_Private(App *app)
 /* Files and screen: a checkpoint first, for it alone tells tables and fields of one path from those of another; then what the path left goes aside. */
 static PetscErrorCode Tell_Private(App *app, PetscReal error)
 {
-  const ForestTables *t;
-
   PetscFunctionBegin;
   if (app->writer) PetscCall(WriterDestroy(&app->writer)); /* the checkpoint is of a path without states */
   PetscCall(AppSnapshot(app));
@@ -55,7 +53,7 @@ static PetscErrorCode Tell_Private(App *app, PetscReal error)
   PetscCall(OutputSetAside(app->comm, app->data->output.directory));
   if (app->data->output.fields) PetscCall(WriterCreate(app->comm, app->data->output.directory, &app->writer));
   PetscCall(HistoryAgain(app->history));
-  PetscCall(ForestGetTables(app->level.forest, &t));
+  const ForestTables *t = ForestGetTables(app->level.forest);
   PetscCall(MonitorAgain(app->monitor, app->repeats, t->num_leaves, error));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

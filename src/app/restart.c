@@ -130,10 +130,7 @@ static PetscErrorCode Number_Private(Numbers *n, const char *prefix, PetscInt in
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   one.value = real ? *real : (PetscReal)*integer;
-  if (n->num == n->room) {
-    n->room = 2 * n->room + 64;
-    PetscCall(PetscRealloc((size_t)n->room * sizeof(one), &n->number));
-  }
+  PetscCall(ArrayGrow(n->num + 1, sizeof(one), &n->room, &n->number));
   n->number[n->num++] = one;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -191,11 +188,10 @@ static PetscErrorCode GetLargest_Private(App *app)
 
 PetscErrorCode AppSnapshot(App *app)
 {
-  Numbers             n = {0};
-  const ForestTables *t;
-  PetscLogDouble      now;
-  PetscReal           seconds[1 + NUM_STAGES];
-  PetscInt            states = 0;
+  Numbers        n = {0};
+  PetscLogDouble now;
+  PetscReal      seconds[1 + NUM_STAGES];
+  PetscInt       states = 0;
 
   PetscFunctionBegin;
   PetscCall(StageBegin(STAGE_OUTPUT));
@@ -212,7 +208,7 @@ PetscErrorCode AppSnapshot(App *app)
   PetscCall(CheckpointCreate(app->level.problem, &app->level.accepted, n.num, n.number, app->adapt_stop, &app->snapshot));
   PetscCall(PetscFree(n.number));
   if (app->largest.num_leaves) PetscCall(PutLargest_Private(app));
-  PetscCall(ForestGetTables(app->level.forest, &t));
+  const ForestTables *t  = ForestGetTables(app->level.forest);
   app->snapshot_revision = t->revision;
   app->written           = PETSC_FALSE;
   PetscCall(StageEnd(STAGE_OUTPUT));
@@ -234,10 +230,9 @@ PetscErrorCode AppCheckpoint(App *app)
 /* The level of a checkpoint over the coarse mesh of a forest. */
 static PetscErrorCode Level_Private(App *app, Checkpoint c, Forest coarse, Level *level)
 {
-  const ForestTables *tables;
-  const int8_t       *orders;
-  PetscReal           t;
-  Forest              forest;
+  const int8_t *orders;
+  PetscReal     t;
+  Forest        forest;
 
   PetscFunctionBegin;
   PetscCall(CheckpointGetNumber(c, "t", &t));
@@ -248,21 +243,20 @@ static PetscErrorCode Level_Private(App *app, Checkpoint c, Forest coarse, Level
   PetscCall(CheckpointState(c, level->problem, &level->state));
   PetscCall(StateKeepOrigin(level->problem, &level->state));
   PetscCall(StateCopy(&level->state, &level->accepted));
-  PetscCall(ForestGetTables(forest, &tables));
-  app->snapshot_revision = tables->revision;
+  const ForestTables *tables = ForestGetTables(forest);
+  app->snapshot_revision     = tables->revision;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode AppStop(App *app)
 {
-  const ForestTables *t;
-  Level               old = app->level;
+  Level old = app->level;
 
   PetscFunctionBegin;
   PetscCall(AppCheckpoint(app));
   PetscCall(PetscSNPrintf(app->reason, sizeof(app->reason), "%s; -restart %s goes on", StopReason(), app->checkpoint));
-  app->adapt_stop = CheckpointNote(app->snapshot);
-  PetscCall(ForestGetTables(old.forest, &t));
+  app->adapt_stop       = CheckpointNote(app->snapshot);
+  const ForestTables *t = ForestGetTables(old.forest);
   if (t->revision == app->snapshot_revision) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(Level_Private(app, app->snapshot, old.forest, &app->level)); /* the step that was given up had refined the mesh */
   PetscCall(LevelDestroy(&old));

@@ -5,16 +5,15 @@
 
 static PetscErrorCode WatchPassage_Private(App *app)
 {
-  const CoarseMesh *mesh;
-  Passage           p;
-  char              contact[256];
+  Passage p;
+  char    contact[256];
 
   PetscFunctionBegin;
   if (app->passage_told || app->data->mechanics.kinematics == KINEMATICS_SMALL) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PassageFind(app->level.problem, &app->level.accepted, -1, &p));
   if (!(p.depth > 0)) PetscFunctionReturn(PETSC_SUCCESS);
-  app->passage_told = PETSC_TRUE;
-  PetscCall(ForestGetCoarse(app->level.forest, &mesh));
+  app->passage_told      = PETSC_TRUE;
+  const CoarseMesh *mesh = ForestGetCoarse(app->level.forest);
   if (p.pair < 0)
     PetscCall(PetscStrncpy(contact, "no contact is there to stop it", sizeof(contact)));
   else
@@ -29,15 +28,14 @@ static PetscErrorCode WatchPassage_Private(App *app)
 /* Bodies that no contact pair is between, in the mesh or at an accepted state. */
 static PetscErrorCode WatchApart_Private(App *app, const char *where)
 {
-  const CoarseMesh *mesh;
-  Passage           p;
+  Passage p;
 
   PetscFunctionBegin;
   if (app->apart_told) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PassageFindApart(app->level.problem, &app->level.accepted, &p));
   if (!(p.depth > 0) && !p.whole) PetscFunctionReturn(PETSC_SUCCESS);
-  app->apart_told = PETSC_TRUE;
-  PetscCall(ForestGetCoarse(app->level.forest, &mesh));
+  const CoarseMesh *mesh = ForestGetCoarse(app->level.forest);
+  app->apart_told        = PETSC_TRUE;
   if (p.whole)
     PetscCall(WarningAdd(app->comm,
                          "body %s lies wholly inside body %s %s, at (%.4g, %.4g, %.4g), and no contact pair is between them: each is blind to the other",
@@ -157,10 +155,9 @@ static PetscErrorCode WarnFlow_Private(App *app)
 
 static PetscErrorCode WarnAdrift_Private(App *app)
 {
-  const CoarseMesh *mesh;
+  const CoarseMesh *mesh = ForestGetCoarse(app->level.forest);
 
   PetscFunctionBegin;
-  PetscCall(ForestGetCoarse(app->level.forest, &mesh));
   for (PetscInt b = 0; b < mesh->num_bodies; ++b) {
     const Adrift *a = &app->adrift[b];
     if (!a->lost) continue;
@@ -173,12 +170,11 @@ static PetscErrorCode WarnAdrift_Private(App *app)
 
 static PetscErrorCode WarnFolded_Private(const App *app)
 {
-  const CoarseMesh *mesh;
-  const Folded     *f = &app->folded;
+  const Folded *f = &app->folded;
 
   PetscFunctionBegin;
   if (!f->num) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(ForestGetCoarse(app->level.forest, &mesh));
+  const CoarseMesh *mesh = ForestGetCoarse(app->level.forest);
   PetscCall(WarningAdd(app->comm,
                        "%" PetscInt_FMT
                        " %s at t = %.6g, the worst at (%.4g, %.4g, %.4g) of body %s, det F = %.3g there: no body does that; take smaller cells "

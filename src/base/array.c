@@ -32,3 +32,19 @@ PetscErrorCode RowBufferDestroy(RowBuffer *b)
   b->size = 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
+
+PetscErrorCode ArrayGrow(PetscInt num, size_t entry, PetscInt *size, void *array)
+{
+  PetscFunctionBegin;
+  if (num <= *size) PetscFunctionReturn(PETSC_SUCCESS);
+  *size = num + num / 2 + 16;
+  PetscCall(PetscRealloc((size_t)*size * entry, array));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode FreeAll(PetscInt num, void *const pointer[])
+{
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < num; i++) PetscCall(PetscFree(*(void **)pointer[i]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -90,9 +90,6 @@ static inline PetscBool ContactHas(const ContactSurface *s, PetscInt node)
   return (PetscBool)(!s->has || s->has[node]);
 }
 
-/* Make room for num entries of *array, *size are there; contents are kept. */
-PetscErrorCode ContactGrow(PetscInt num, size_t entry, PetscInt *size, void *array);
-
 /* search.c */
 PetscErrorCode ContactTreeBuild(PetscInt num, PetscReal (*box)[6], Tree *);
 PetscErrorCode ContactTreeDestroy(Tree *);
@@ -142,7 +139,6 @@ typedef struct {
 PetscBool      ContactStateStands(ContactPair, const ContactSurface *nonmortar, const ContactSurface *mortar);
 PetscBool      ContactStateLoads(ContactPair, const PetscReal z[]);
 PetscErrorCode ContactStateKeep(ContactPair, const ContactSurface *nonmortar, const ContactSurface *mortar, const PetscReal z[]);
-PetscErrorCode ContactStateDestroy(ContactPair);
 
 /* kernel/slip.c */
 PetscErrorCode ContactSlipDestroy(struct ContactSlip **);

@@ -259,19 +259,16 @@ PetscBool ContactBehind(ContactPair pair, PetscInt facet, const FacetCorners *s,
   return IsBeside_Private(num_own, side[0], num_other, side[1], depth);
 }
 
-PetscErrorCode ContactPairGetUntold(ContactPair pair, PetscReal *depth)
+void ContactPairGetUntold(ContactPair pair, PetscReal *depth)
 {
-  PetscFunctionBegin;
   *depth = pair->untold;
-  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ContactHullThickness(ContactHull hull, const ContactSurface *s, const PetscInt part[], PetscReal *most)
+void ContactHullThickness(ContactHull hull, const ContactSurface *s, const PetscInt part[], PetscReal *most)
 {
   const ContactSurface reference = {.dim = s->dim, .facets = s->facets, .x = s->X, .X = s->X};
   FacetCorners         p;
 
-  PetscFunctionBegin;
   *most = 0;
   for (PetscInt f = 0; f < s->num_facets; f++) {
     PetscReal x[3] = {0, 0, 0}, d[3];
@@ -285,15 +282,12 @@ PetscErrorCode ContactHullThickness(ContactHull hull, const ContactSurface *s, c
 
     if (across < PETSC_MAX_REAL) *most = PetscMax(*most, across); /* else through a crack between facets of curved bodies */
   }
-  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ContactPairSetHull(ContactPair pair, ContactHull hull, const PetscInt part[], const PetscInt mortar_part[], PetscReal deepest)
+void ContactPairSetHull(ContactPair pair, ContactHull hull, const PetscInt part[], const PetscInt mortar_part[], PetscReal deepest)
 {
-  PetscFunctionBegin;
   pair->hull    = hull;
   pair->deepest = deepest;
   pair->part[0] = part;
   pair->part[1] = mortar_part;
-  PetscFunctionReturn(PETSC_SUCCESS);
 }

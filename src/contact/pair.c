@@ -1,15 +1,6 @@
 /* The contact pair: life cycle, what callers ask of it, evaluations. */
 #include "kernelimpl.h"
 
-PetscErrorCode ContactGrow(PetscInt num, size_t entry, PetscInt *size, void *array)
-{
-  PetscFunctionBegin;
-  if (num <= *size) PetscFunctionReturn(PETSC_SUCCESS);
-  *size = num + num / 2 + 16;
-  PetscCall(PetscRealloc((size_t)*size * entry, array));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode ContactPairCreate(PetscInt dim, PetscBool axisymmetric, const ContactSpec *spec, ContactPair *pair)
 {
   PetscFunctionBegin;
@@ -22,31 +13,14 @@ PetscErrorCode ContactPairCreate(PetscInt dim, PetscBool axisymmetric, const Con
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode FoundDestroy_Private(Found *f)
-{
-  PetscFunctionBegin;
-  PetscCall(PetscFree(f->start));
-  PetscCall(PetscFree(f->found));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode ContactPairDestroy(ContactPair *pair)
 {
   ContactPair p = *pair;
 
   PetscFunctionBegin;
   if (!p) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(PetscFree(p->listed));
-  PetscCall(PetscFree(p->start));
-  PetscCall(PetscFree(p->candidate));
-  PetscCall(FoundDestroy_Private(&p->base));
-  PetscCall(FoundDestroy_Private(&p->last));
-  PetscCall(PetscFree(p->normal));
-  PetscCall(PetscFree(p->output));
-  PetscCall(PetscFree(p->ids));
-  PetscCall(PetscFree(p->result));
-  PetscCall(PetscFree(p->slot));
-  PetscCall(ContactStateDestroy(p));
+  PetscCall(FreeAll(15, (void *[]){&p->listed, &p->start, &p->candidate, &p->base.start, &p->base.found, &p->last.start, &p->last.found, &p->normal, &p->output,
+                                   &p->ids, &p->result, &p->slot, &p->state.x[0], &p->state.x[1], &p->state.z}));
   PetscCall(ContactSlipDestroy(&p->slip));
   PetscCall(ContactRayWorkDestroy(&p->ray));
   PetscCall(ContactMultiplierDestroy(&p->multiplier));
@@ -54,26 +28,20 @@ PetscErrorCode ContactPairDestroy(ContactPair *pair)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ContactPairGetSegments(ContactPair pair, PetscInt *num, const ContactSegment **segments)
+void ContactPairGetSegments(ContactPair pair, PetscInt *num, const ContactSegment **segments)
 {
-  PetscFunctionBegin;
   *num      = pair->num_segments;
   *segments = pair->output;
-  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ContactPairGetDegenerate(ContactPair pair, PetscInt *num)
+PetscInt ContactPairGetDegenerate(ContactPair pair)
 {
-  PetscFunctionBegin;
-  *num = pair->num_degenerate;
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return pair->num_degenerate;
 }
 
-PetscErrorCode ContactPairGetNormals(ContactPair pair, const PetscReal **normals)
+const PetscReal *ContactPairGetNormals(ContactPair pair)
 {
-  PetscFunctionBegin;
-  *normals = pair->normal;
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return pair->normal;
 }
 
 /* False when a known position is infinite or not a number: a mortar node without a place would silently see nothing. */
@@ -86,29 +54,23 @@ static PetscBool IsFinite_Private(const ContactSurface *s)
   return sum == 0 ? PETSC_TRUE : PETSC_FALSE;
 }
 
-PetscErrorCode ContactPairFreezeNormals(ContactPair pair, PetscBool frozen)
+void ContactPairFreezeNormals(ContactPair pair, PetscBool frozen)
 {
-  PetscFunctionBegin;
   if (pair->held != frozen) pair->state.stands = PETSC_FALSE; /* other derivatives */
   pair->held = frozen;
-  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ContactPairFreezeSegmentation(ContactPair pair, PetscBool frozen)
+void ContactPairFreezeSegmentation(ContactPair pair, PetscBool frozen)
 {
-  PetscFunctionBegin;
   if (pair->frozen_segmentation != frozen) pair->state.stands = PETSC_FALSE; /* other forces */
   pair->frozen_segmentation = frozen;
-  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ContactPairSetPrecedence(ContactPair pair, const PetscInt precedence[], const PetscBool met[])
+void ContactPairSetPrecedence(ContactPair pair, const PetscInt precedence[], const PetscBool met[])
 {
-  PetscFunctionBegin;
   pair->precedence   = precedence;
   pair->met          = met;
   pair->state.stands = PETSC_FALSE;
-  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode ContactPairEvaluate(ContactPair pair, const ContactSurface *nonmortar, const ContactSurface *mortar, const PetscReal z[],

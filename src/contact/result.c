@@ -18,8 +18,8 @@ PetscErrorCode ContactStoreReserve(Store *s, PetscInt num, PetscReal **array)
   if (s->at == s->num) {
     PetscInt size = s->size;
 
-    PetscCall(ContactGrow(s->num + 1, sizeof(PetscReal *), &size, &s->block));
-    PetscCall(ContactGrow(s->num + 1, sizeof(PetscInt), &s->size, &s->room));
+    PetscCall(ArrayGrow(s->num + 1, sizeof(PetscReal *), &size, &s->block));
+    PetscCall(ArrayGrow(s->num + 1, sizeof(PetscInt), &s->size, &s->room));
     s->room[s->num] = PetscMax(num, s->num ? 2 * s->room[s->num - 1] : 0);
     PetscCall(PetscMalloc1(s->room[s->num], &s->block[s->num]));
     s->num++;
@@ -35,10 +35,7 @@ PetscErrorCode ContactResultDestroy(Result *r)
 {
   PetscFunctionBegin;
   PetscCall(StoreDestroy_Private(&r->store));
-  PetscCall(PetscFree(r->node));
-  PetscCall(PetscFree(r->row_first));
-  PetscCall(PetscFree(r->row_node));
-  PetscCall(PetscFree(r->row_weight));
+  PetscCall(FreeAll(4, (void *[]){&r->node, &r->row_first, &r->row_node, &r->row_weight}));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -47,7 +44,7 @@ PetscErrorCode ContactResultNode(Result *r, PetscInt id, PetscInt *place)
   PetscFunctionBegin;
   for (*place = 0; *place < r->num_nodes; (*place)++)
     if (r->node[*place] == id) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(ContactGrow(r->num_nodes + 1, sizeof(PetscInt), &r->size_node, &r->node));
+  PetscCall(ArrayGrow(r->num_nodes + 1, sizeof(PetscInt), &r->size_node, &r->node));
   r->node[r->num_nodes++] = id;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -70,8 +67,8 @@ PetscErrorCode ContactResultRow(Result *r, const ContactSurface *s, PetscInt nod
   const PetscInt   masters = ContactNodeRow(s, &node, &master, &weight);
 
   PetscFunctionBegin;
-  PetscCall(ContactGrow(*num + masters, sizeof(PetscInt), &r->size_row_node, &r->row_node));
-  PetscCall(ContactGrow(*num + masters, sizeof(PetscReal), &r->size_row_weight, &r->row_weight));
+  PetscCall(ArrayGrow(*num + masters, sizeof(PetscInt), &r->size_row_node, &r->row_node));
+  PetscCall(ArrayGrow(*num + masters, sizeof(PetscReal), &r->size_row_weight, &r->row_weight));
   r->row_first[v] = *num;
   for (PetscInt k = 0; k < masters; k++, (*num)++) {
     PetscCall(ContactResultNode(r, mortar ? ~master[k] : master[k], &r->row_node[*num]));
@@ -94,7 +91,7 @@ PetscBool ContactResultDerivatives(const EvaluateContext *ctx, PetscInt num_rows
 PetscErrorCode ContactResultSegment(ContactPair pair, PetscInt facet, PetscInt mortar_facet, PetscInt num, ContactSegment **segment)
 {
   PetscFunctionBegin;
-  PetscCall(ContactGrow(pair->num_segments + 1, sizeof(ContactSegment), &pair->size_segments, &pair->output));
+  PetscCall(ArrayGrow(pair->num_segments + 1, sizeof(ContactSegment), &pair->size_segments, &pair->output));
   *segment                 = &pair->output[pair->num_segments++];
   (*segment)->facet        = facet;
   (*segment)->mortar_facet = mortar_facet;
@@ -142,7 +139,7 @@ PetscErrorCode ContactResultsEvaluate(const EvaluateContext *ctx, Result *r, Res
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   pair->num_degenerate = pair->num_ids = 0;
-  PetscCall(ContactGrow(pair->num_listed, sizeof(PetscInt), &pair->size_slot, &pair->slot));
+  PetscCall(ArrayGrow(pair->num_listed, sizeof(PetscInt), &pair->size_slot, &pair->slot));
   r->store.at = r->store.used = 0;
   for (PetscInt slot = 0; slot < pair->num_listed; slot++) {
     ContactFacet *out = &pair->result[pair->num_results];
@@ -154,7 +151,7 @@ PetscErrorCode ContactResultsEvaluate(const EvaluateContext *ctx, Result *r, Res
     out->facet    = pair->listed[slot];
     out->num_rows = r->num_rows;
     out->num      = r->num_nodes;
-    PetscCall(ContactGrow(pair->num_ids + out->num, sizeof(PetscInt), &pair->size_ids, &pair->ids));
+    PetscCall(ArrayGrow(pair->num_ids + out->num, sizeof(PetscInt), &pair->size_ids, &pair->ids));
     PetscCall(PetscArraycpy(pair->ids + pair->num_ids, r->node, out->num));
     pair->num_ids += out->num;
     for (PetscInt j = 0; j < out->num_rows; j++)

@@ -5,7 +5,7 @@
 static PetscErrorCode Copy_Private(PetscInt num, const PetscReal from[], PetscInt *size, PetscReal **to)
 {
   PetscFunctionBegin;
-  PetscCall(ContactGrow(num, sizeof(PetscReal), size, to));
+  PetscCall(ArrayGrow(num, sizeof(PetscReal), size, to));
   PetscCall(PetscArraycpy(*to, from, num));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -38,13 +38,5 @@ PetscErrorCode ContactStateKeep(ContactPair pair, const ContactSurface *nonmorta
   s->loaded = (PetscBool)(z != NULL);
   for (int k = 0; k < 2; k++) PetscCall(Copy_Private(pair->dim * side[k]->num_nodes, side[k]->x, &s->size_x[k], &s->x[k]));
   if (z) PetscCall(Copy_Private(pair->num_nodes, z, &s->size_z, &s->z));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode ContactStateDestroy(ContactPair pair)
-{
-  PetscFunctionBegin;
-  for (int k = 0; k < 2; k++) PetscCall(PetscFree(pair->state.x[k]));
-  PetscCall(PetscFree(pair->state.z));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

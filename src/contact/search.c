@@ -55,9 +55,7 @@ static PetscErrorCode MortarTree_Private(const ContactSurface *mortar, PetscInt 
 static PetscErrorCode ListFacets_Private(ContactPair pair, const ContactSurface *nonmortar, PetscInt num, const PetscInt facets[])
 {
   PetscFunctionBegin;
-  PetscCall(PetscFree(pair->listed));
-  PetscCall(PetscFree(pair->start));
-  PetscCall(PetscFree(pair->result));
+  PetscCall(FreeAll(3, (void *[]){&pair->listed, &pair->start, &pair->result}));
   PetscCall(PetscMalloc1(num, &pair->listed));
   PetscCall(PetscMalloc1(num + 1, &pair->start));
   PetscCall(PetscMalloc1(num, &pair->result));
@@ -179,7 +177,7 @@ static PetscErrorCode Candidates_Private(ContactPair pair, const ContactSurface 
     for (PetscInt k = 0; k < num; k++)
       if (Meets_Private(pair, nonmortar, i, &region, &corners, mortar, found[k], &grazed[met])) found[met++] = found[k];
     met = Ungrazed_Private(mortar, met, found, grazed);
-    PetscCall(ContactGrow(total + met, sizeof(PetscInt), &pair->size_candidate, &pair->candidate));
+    PetscCall(ArrayGrow(total + met, sizeof(PetscInt), &pair->size_candidate, &pair->candidate));
     PetscCall(PetscArraycpy(pair->candidate + total, found, met));
     total += met;
   }
@@ -193,8 +191,8 @@ static PetscErrorCode Remember_Private(ContactPair pair)
   Found         *f = &pair->last;
 
   PetscFunctionBegin;
-  PetscCall(ContactGrow(num + 1, sizeof(PetscInt), &f->size_start, &f->start));
-  PetscCall(ContactGrow(total, sizeof(PetscInt), &f->size_found, &f->found));
+  PetscCall(ArrayGrow(num + 1, sizeof(PetscInt), &f->size_start, &f->start));
+  PetscCall(ArrayGrow(total, sizeof(PetscInt), &f->size_found, &f->found));
   PetscCall(PetscArraycpy(f->start, pair->start, num + 1));
   PetscCall(PetscArraycpy(f->found, pair->candidate, total));
   f->num         = num;
@@ -202,23 +200,19 @@ static PetscErrorCode Remember_Private(ContactPair pair)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ContactPairKeepSearch(ContactPair pair)
+void ContactPairKeepSearch(ContactPair pair)
 {
   const Found base = pair->base;
 
-  PetscFunctionBegin;
-  if (!pair->is_newer) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!pair->is_newer) return;
   pair->base     = pair->last;
   pair->last     = base;
   pair->is_newer = PETSC_FALSE;
-  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ContactPairGoOn(ContactPair pair, PetscBool yes)
+void ContactPairGoOn(ContactPair pair, PetscBool yes)
 {
-  PetscFunctionBegin;
   pair->goes_on = yes;
-  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* What a search knows of the nonmortar side: directions, the list. */
@@ -254,18 +248,16 @@ PetscErrorCode ContactPairSearch(ContactPair pair, const ContactSurface *nonmort
   PetscCall(MortarTree_Private(mortar, known, &tree));
   PetscCall(Candidates_Private(pair, nonmortar, mortar, &tree, known, found, grazed));
   PetscCall(Remember_Private(pair));
-  if (!pair->goes_on) PetscCall(ContactPairKeepSearch(pair));
+  if (!pair->goes_on) ContactPairKeepSearch(pair);
   PetscCall(PetscFree3(found, known, grazed));
   PetscCall(ContactTreeDestroy(&tree));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ContactPairGetCandidates(ContactPair pair, const PetscInt **start, const PetscInt **candidate)
+void ContactPairGetCandidates(ContactPair pair, const PetscInt **start, const PetscInt **candidate)
 {
-  PetscFunctionBegin;
   *start     = pair->start;
   *candidate = pair->candidate;
-  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode ContactPairSetCandidates(ContactPair pair, const ContactSurface *nonmortar, PetscInt num, const PetscInt facets[], const PetscInt start[],
@@ -273,7 +265,7 @@ PetscErrorCode ContactPairSetCandidates(ContactPair pair, const ContactSurface *
 {
   PetscFunctionBegin;
   PetscCall(ListFacets_Private(pair, nonmortar, num, facets));
-  PetscCall(ContactGrow(start[num], sizeof(PetscInt), &pair->size_candidate, &pair->candidate));
+  PetscCall(ArrayGrow(start[num], sizeof(PetscInt), &pair->size_candidate, &pair->candidate));
   PetscCall(PetscArraycpy(pair->start, start, num + 1));
   PetscCall(PetscArraycpy(pair->candidate, candidate, start[num]));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -85,9 +85,7 @@ PetscErrorCode ContactTreeBuild(PetscInt num, PetscReal (*box)[6], Tree *t)
 PetscErrorCode ContactTreeDestroy(Tree *t)
 {
   PetscFunctionBegin;
-  PetscCall(PetscFree(t->item));
-  PetscCall(PetscFree(t->node));
-  PetscCall(PetscFree(t->box));
+  PetscCall(FreeAll(3, (void *[]){&t->item, &t->node, &t->box}));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -32,15 +32,14 @@ static void SideForces_Private(const ForestTables *t, const SurfaceView *s, Pets
 /* Bodies that a pair presses on each other. */
 static PetscErrorCode JoinPairs_Private(Problem problem, PetscInt num, PetscInt num_bodies, PetscReal scale, PetscInt root[])
 {
-  const ForestTables *t;
+  const ForestTables *t = ForestGetTables(ProblemForest(problem));
   const ContactView  *v;
   PetscReal          *force; /* [num][num_bodies] */
 
   PetscFunctionBegin;
-  PetscCall(ForestGetTables(ProblemForest(problem), &t));
   PetscCall(PetscCalloc1(num * num_bodies, &force));
   for (PetscInt i = 0; i < num; ++i) {
-    PetscCall(InterfaceGetContact(ProblemInterface(problem), i, &v));
+    v = InterfaceGetContact(ProblemInterface(problem), i);
     SideForces_Private(t, &v->nonmortar, force + i * num_bodies);
     SideForces_Private(t, &v->mortar, force + i * num_bodies);
   }
@@ -59,16 +58,14 @@ static PetscErrorCode JoinPairs_Private(Problem problem, PetscInt num, PetscInt 
 
 PetscErrorCode AdriftFind(Problem problem, PetscReal scale, PetscInt axes[])
 {
-  const SceneData  *scene;
-  const CoarseMesh *mesh;
+  const SceneData  *scene = ProblemGetScene(problem);
+  const CoarseMesh *mesh  = ForestGetCoarse(ProblemForest(problem));
   const PetscReal  *hold;
   const PetscInt   *group;
   PetscReal        *sum;
   PetscInt         *root, num, free = 0;
 
   PetscFunctionBegin;
-  PetscCall(ProblemGetScene(problem, &scene));
-  PetscCall(ForestGetCoarse(ProblemForest(problem), &mesh));
   PetscCall(MechanicsGetHold(ProblemMechanics(problem), &hold, &group));
   num = scene->mechanics.num_bodies;
   for (PetscInt b = 0; b < num; ++b) free |= axes[b] = MechanicsFreeAxes(mesh->dim, hold + 9 * b);

@@ -83,11 +83,10 @@ static PetscErrorCode Loads_Private(Problem problem, Vec x, Model model, PetscRe
 {
   MechanicsStatus status;
   HPSpace         space = ProblemSpace(problem);
-  const HPTables *v;
+  const HPTables *v     = HPSpaceGetTables(space);
   PetscReal      *u, *r;
 
   PetscFunctionBegin;
-  PetscCall(HPSpaceGetTables(space, &v));
   PetscCall(PetscCalloc2(v->num_nodes * v->dim, &u, v->num_nodes * v->dim, &r));
   PetscCall(ProblemLocalDisplacement(problem, x, u));
   PetscCall(MechanicsResidual(ProblemMechanics(problem), u, NULL, r, &status));
@@ -150,11 +149,10 @@ static void ExchangeSides_Private(PairFigures *f)
 static PetscErrorCode Plastic_Private(Problem problem, Vec x, Balance *b)
 {
   Forest          forest = ProblemForest(problem);
-  const HPTables *v;
+  const HPTables *v      = HPSpaceGetTables(ProblemSpace(problem));
   PetscReal      *u, (*integral)[2];
 
   PetscFunctionBegin;
-  PetscCall(HPSpaceGetTables(ProblemSpace(problem), &v));
   PetscCall(PetscMalloc2(v->num_nodes * v->dim, &u, b->num_bodies, &integral));
   PetscCall(ProblemLocalDisplacement(problem, x, u));
   PetscCall(MechanicsPlastic(ProblemMechanics(problem), u, &b->plastic_strain, &b->plastic_work, integral));
@@ -269,16 +267,15 @@ static PetscErrorCode Pair_Private(Problem problem, const SceneData *scene, Pets
 PetscErrorCode BalanceCompute(Problem problem, const State *state, Balance *b)
 {
   const SceneData    *scene;
-  const ForestTables *t;
   const ContactView **view, *v;
 
   PetscFunctionBegin;
   PetscCall(PetscMemzero(b, sizeof(*b)));
-  PetscCall(ProblemGetScene(problem, &scene));
-  PetscCall(ForestGetTables(ProblemForest(problem), &t));
-  b->num_boundaries = scene->mechanics.num_boundaries;
-  b->num_contacts   = scene->num_contacts;
-  b->num_bodies     = scene->mechanics.num_bodies;
+  scene                 = ProblemGetScene(problem);
+  const ForestTables *t = ForestGetTables(ProblemForest(problem));
+  b->num_boundaries     = scene->mechanics.num_boundaries;
+  b->num_contacts       = scene->num_contacts;
+  b->num_bodies         = scene->mechanics.num_bodies;
   PetscCall(PetscCalloc5(b->num_boundaries, &b->reaction, b->num_contacts, &b->pair, b->num_boundaries, &b->pressure, b->num_boundaries, &b->control,
                          b->num_bodies, &b->mean_strain));
   PetscCall(PetscCalloc3(b->num_boundaries, &b->support_moment, b->num_bodies, &b->body, b->num_bodies, &b->motion));
@@ -289,7 +286,7 @@ PetscErrorCode BalanceCompute(Problem problem, const State *state, Balance *b)
   for (PetscInt i = 0; i < scene->num_contacts; ++i) {
     PairFigures part;
     PetscCall(PetscMemzero(&part, sizeof(part)));
-    PetscCall(InterfaceGetContact(ProblemInterface(problem), i, &v));
+    v = InterfaceGetContact(ProblemInterface(problem), i);
     PetscCall(Pair_Private(problem, scene, i, v, &part));
     if (v->spec->part == 0) {
       b->num_contacts        = v->spec->pair + 1;
@@ -328,11 +325,10 @@ PetscErrorCode BalanceDestroy(Balance *b)
 
 PetscErrorCode ReportRowFill(Problem problem, const State *state, const Estimate *estimate, const Balance *b, ReportRow *row)
 {
-  const ForestTables *t;
+  const ForestTables *t = ForestGetTables(ProblemForest(problem));
 
   PetscFunctionBegin;
-  PetscCall(ForestGetTables(ProblemForest(problem), &t));
-  PetscCall(ProblemNumDofs(problem, &row->dofs));
+  row->dofs                = ProblemNumDofs(problem);
   row->t                   = state->t;
   row->cells               = t->num_leaves;
   row->frozen_segmentation = state->form.frozen_segmentation;

@@ -23,9 +23,9 @@ static PetscErrorCode Corners_Private(Mechanics mechanics, PetscInt dim, PetscIn
 
 PetscErrorCode FoldedFind(Problem problem, Vec x, Folded *folded, int8_t leaf[])
 {
-  const SceneData    *scene;
-  const ForestTables *t;
-  const HPTables     *v;
+  const SceneData    *scene = ProblemGetScene(problem);
+  const ForestTables *t     = ForestGetTables(ProblemForest(problem));
+  const HPTables     *v     = HPSpaceGetTables(ProblemSpace(problem));
   PetscReal          *u, det, X[3];
   const MPI_Comm      comm = ForestComm(ProblemForest(problem));
   struct {
@@ -34,9 +34,6 @@ PetscErrorCode FoldedFind(Problem problem, Vec x, Folded *folded, int8_t leaf[])
   } worst;
 
   PetscFunctionBegin;
-  PetscCall(ProblemGetScene(problem, &scene));
-  PetscCall(ForestGetTables(ProblemForest(problem), &t));
-  PetscCall(HPSpaceGetTables(ProblemSpace(problem), &v));
   *folded = (Folded){.det = PETSC_MAX_REAL};
   if (leaf) PetscCall(PetscArrayzero(leaf, t->num_leaves));
   PetscCall(PetscMalloc1(v->num_nodes * v->dim, &u));

@@ -105,10 +105,9 @@ static PetscErrorCode Find_Private(const Pieces *s, MPI_Comm comm, const PetscIn
    is. */
 static PetscErrorCode First_Private(Problem problem, MPI_Comm comm, PetscInt num, PetscInt bare[], const PetscBool within[], PetscInt *pair, PetscInt *still)
 {
-  const HPTables *v;
-  Pieces          s = {0};
-  PetscReal      *none;
-  PetscBool      *before, any = PETSC_FALSE;
+  Pieces     s = {0};
+  PetscReal *none;
+  PetscBool *before, any = PETSC_FALSE;
 
   PetscFunctionBegin;
   for (PetscInt i = 0; i < num; ++i) {
@@ -116,7 +115,7 @@ static PetscErrorCode First_Private(Problem problem, MPI_Comm comm, PetscInt num
     any     = (PetscBool)(any || within[i]);
   }
   if (!any) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(HPSpaceGetTables(ProblemSpace(problem), &v));
+  const HPTables *v = HPSpaceGetTables(ProblemSpace(problem));
   PetscCall(PetscCalloc1(v->num_nodes * v->dim, &none));
   PetscCall(PetscMalloc1(num, &before));
   PetscCall(PiecesAt_Private(problem, none, PETSC_TRUE, &s));
@@ -197,15 +196,14 @@ static PetscErrorCode Own_Private(Problem problem, const State *state, const Pie
 
 PetscErrorCode InsideFind(Problem problem, const State *state, PetscInt *pair, PetscInt *still)
 {
-  const SceneData *scene;
-  Forest           forest = ProblemForest(problem);
-  Pieces           s      = {0};
-  PetscInt        *bare, own;
-  PetscBool        any, *within;
+  Forest    forest = ProblemForest(problem);
+  Pieces    s      = {0};
+  PetscInt *bare, own;
+  PetscBool any, *within;
 
   PetscFunctionBegin;
-  *pair = *still = -1;
-  PetscCall(ProblemGetScene(problem, &scene));
+  *pair = *still         = -1;
+  const SceneData *scene = ProblemGetScene(problem);
   if (scene->num_contacts == 0 || scene->mechanics.kinematics == KINEMATICS_SMALL) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscMalloc2(scene->num_contacts, &bare, scene->num_contacts, &within));
   PetscCall(PairsBare_Private(problem, ForestComm(forest), scene->num_contacts, bare, &any));

@@ -126,17 +126,15 @@ static const char *FileName_Private(const char *path)
 PetscErrorCode MonitorHeader(Monitor m, Problem problem)
 {
   const SceneData    *scene = m->scene;
-  const ForestTables *t;
-  const HPTables     *v;
+  const ForestTables *t     = ForestGetTables(ProblemForest(problem));
   PetscInt            dofs, low = MORTISE_MAX_ORDER, high = 1;
   PetscMPIInt         size;
   char                orders[32], model[MORTISE_NAME];
 
   PetscFunctionBegin;
-  PetscCall(ForestGetTables(ProblemForest(problem), &t));
-  PetscCall(ProblemNumDofs(problem, &dofs));
+  dofs = ProblemNumDofs(problem);
   PetscCallMPI(MPI_Comm_size(m->comm, &size));
-  PetscCall(HPSpaceGetTables(ProblemSpace(problem), &v));
+  const HPTables *v = HPSpaceGetTables(ProblemSpace(problem));
   for (PetscInt c = 0; c < v->num_owned_cells; ++c) { /* after -restart not those of the scene */
     if (scene->mechanics.bodies[t->leaf_body[v->cell_leaf[c]]].material->law->rigid) continue;
     low  = PetscMin(low, v->cell_order[c]);

@@ -85,20 +85,17 @@ static PetscErrorCode Outer_Private(const ForestTables *t, PetscBool **outer)
 
 PetscErrorCode PiecesAt_Private(Problem problem, const PetscReal u[], PetscBool rigid, Pieces *s)
 {
-  const ForestTables *t;
-  const CoarseMesh   *mesh;
-  const HPTables     *v;
-  HPSpace             space  = ProblemSpace(problem);
-  Forest              forest = ProblemForest(problem);
-  PetscInt            pieces[MORTISE_MAX_ORDER + 1], num_parts, *part, most = 0;
-  PetscBool          *outer;
-  PetscReal          *X;
+  HPSpace    space  = ProblemSpace(problem);
+  Forest     forest = ProblemForest(problem);
+  PetscInt   pieces[MORTISE_MAX_ORDER + 1], num_parts, *part, most = 0;
+  PetscBool *outer;
+  PetscReal *X;
 
   PetscFunctionBegin;
-  PetscCall(ProblemGetScene(problem, &s->scene));
-  PetscCall(ForestGetTables(forest, &t));
-  PetscCall(ForestGetCoarse(forest, &mesh));
-  PetscCall(HPSpaceGetTables(space, &v));
+  s->scene                 = ProblemGetScene(problem);
+  const ForestTables *t    = ForestGetTables(forest);
+  const CoarseMesh   *mesh = ForestGetCoarse(forest);
+  const HPTables     *v    = HPSpaceGetTables(space);
   PetscCall(HPSpacePieces(space, 0, pieces));
   for (PetscInt p = 0; p <= MORTISE_MAX_ORDER; ++p) most = PetscMax(most, ElementNumNodes(v->dim, pieces[p]));
   PetscCall(PetscMalloc2(2 * most * v->dim, &X, mesh->num_cells, &part));
@@ -129,11 +126,10 @@ PetscErrorCode PiecesAt_Private(Problem problem, const PetscReal u[], PetscBool 
 
 PetscErrorCode PiecesCollect_Private(Problem problem, const State *state, PetscBool rigid, Pieces *s)
 {
-  const HPTables *v;
+  const HPTables *v = HPSpaceGetTables(ProblemSpace(problem));
   PetscReal      *u;
 
   PetscFunctionBegin;
-  PetscCall(HPSpaceGetTables(ProblemSpace(problem), &v));
   PetscCall(PetscMalloc1(v->num_nodes * v->dim, &u));
   PetscCall(ProblemLocalDisplacement(problem, state->x, u));
   PetscCall(PiecesAt_Private(problem, u, rigid, s));
@@ -150,7 +146,7 @@ PetscErrorCode PairsBare_Private(Problem problem, MPI_Comm comm, PetscInt num, P
   PetscFunctionBegin;
   for (PetscInt i = 0; i < num; ++i) {
     bare[i] = 1;
-    PetscCall(InterfaceGetContact(ProblemInterface(problem), i, &v));
+    v       = InterfaceGetContact(ProblemInterface(problem), i);
     for (PetscInt n = 0; n < v->nonmortar.num_nodes; ++n) {
       if (v->nonmortar.owned[n] && v->active[n]) bare[i] = 0;
     }
@@ -158,7 +154,7 @@ PetscErrorCode PairsBare_Private(Problem problem, MPI_Comm comm, PetscInt num, P
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, bare, (PetscMPIInt)num, MPIU_INT, MPI_MIN, comm));
   *any = PETSC_FALSE;
   for (PetscInt i = 0, first = 0; i < num; ++i) { /* the pair as a whole, under its first part */
-    PetscCall(InterfaceGetContact(ProblemInterface(problem), i, &v));
+    v = InterfaceGetContact(ProblemInterface(problem), i);
     if (v->spec->part) {
       bare[first] = PetscMin(bare[first], bare[i]);
       bare[i]     = 0;

@@ -259,15 +259,14 @@ static PetscErrorCode Find_Private(const Pieces s[2], MPI_Comm comm, const Petsc
 
 PetscErrorCode ThroughFind(Problem problem, const PetscReal from[], const State *state, PetscInt *pair)
 {
-  const SceneData *scene;
-  Forest           forest = ProblemForest(problem);
-  Pieces           s[2]   = {{0}, {0}};
-  PetscInt        *bare;
-  PetscBool        any;
+  Forest    forest = ProblemForest(problem);
+  Pieces    s[2]   = {{0}, {0}};
+  PetscInt *bare;
+  PetscBool any;
 
   PetscFunctionBegin;
-  *pair = -1;
-  PetscCall(ProblemGetScene(problem, &scene));
+  *pair                  = -1;
+  const SceneData *scene = ProblemGetScene(problem);
   if (scene->num_contacts == 0 || scene->mechanics.kinematics == KINEMATICS_SMALL) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscMalloc1(scene->num_contacts, &bare));
   PetscCall(PairsBare_Private(problem, ForestComm(forest), scene->num_contacts, bare, &any));

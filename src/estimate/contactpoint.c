@@ -245,7 +245,7 @@ static PetscBool Faces_Private(const ContactTerm *term, PetscInt facet, const Pe
   const ContactSegment *s;
   PetscInt              num, low = 0, high;
 
-  PetscCallAbort(PETSC_COMM_SELF, ContactPairGetSegments(term->view->pair, &num, &s));
+  ContactPairGetSegments(term->view->pair, &num, &s);
   for (high = num; low < high;) {
     const PetscInt middle = (low + high) / 2;
     if (s[middle].facet < facet)

@@ -26,7 +26,7 @@ static PetscErrorCode SortByRank_Private(const ForestTables *t, const ContactVie
   PetscInt              num, *place;
 
   PetscFunctionBegin;
-  PetscCall(ContactPairGetSegments(view->pair, &num, &segments));
+  ContactPairGetSegments(view->pair, &num, &segments);
   PetscCall(PetscArrayzero(first, size + 1));
   PetscCall(PetscMalloc1(size, &place));
   PetscCall(PetscMalloc1(num, sorted));
@@ -116,7 +116,7 @@ static PetscErrorCode Shares_Private(PetscInt num, const ContactSegment segments
   PetscCall(PetscMalloc1(num_facets, &term->theta));
   for (PetscInt f = 0; f < num_facets; ++f) term->theta[f] = 1;
   for (PetscInt i = 0; i < num; ++i) term->theta[segments[i].facet] = segments[i].dual;
-  PetscCall(ContactPairGetSegments(term->view->pair, &num_own, &own));
+  ContactPairGetSegments(term->view->pair, &num_own, &own);
   for (PetscInt i = 0; i < num_own; ++i) term->theta[own[i].facet] = own[i].dual;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -168,13 +168,11 @@ static PetscErrorCode IsBare_Private(MPI_Comm comm, const ContactView *v, PetscB
 
 PetscErrorCode ContactTermsCreate_Private(Problem problem, ContactTerms *terms)
 {
-  const SceneData    *scene;
-  const ForestTables *t;
+  const SceneData    *scene  = ProblemGetScene(problem);
   Forest              forest = ProblemForest(problem);
+  const ForestTables *t      = ForestGetTables(forest);
 
   PetscFunctionBegin;
-  PetscCall(ProblemGetScene(problem, &scene));
-  PetscCall(ForestGetTables(forest, &t));
   terms->interface  = ProblemInterface(problem);
   terms->kinematics = scene->mechanics.kinematics;
   terms->model      = scene->mechanics.model;
@@ -184,7 +182,7 @@ PetscErrorCode ContactTermsCreate_Private(Problem problem, ContactTerms *terms)
     ContactTerm    *term = &terms->terms[i];
     ContactSegment *all;
     PetscInt        num;
-    PetscCall(InterfaceGetContact(ProblemInterface(problem), i, &term->view));
+    term->view = InterfaceGetContact(ProblemInterface(problem), i);
     PetscCall(IsBare_Private(ForestComm(forest), term->view, &term->bare));
     PetscCall(FacetPlaces_Private(t, &term->view->nonmortar, &term->facet_place[0]));
     PetscCall(FacetPlaces_Private(t, &term->view->mortar, &term->facet_place[1]));

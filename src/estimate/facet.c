@@ -148,7 +148,7 @@ static PetscErrorCode CellFacets_Private(const HPTables *v, FacetList *list)
 static PetscErrorCode Points_Private(const EstimateSum *sum, FacetPlace *f, FacetList *list)
 {
   PetscFunctionBegin;
-  PetscCall(HPSpaceGetOrder(sum->space, sum->t->first[sum->t->dim - 1] + f->facet, &f->order));
+  f->order  = HPSpaceGetOrder(sum->space, sum->t->first[sum->t->dim - 1] + f->facet);
   f->num_1d = 0;
   for (PetscInt s = 0; s < 2; ++s) {
     if (f->side[s].cell >= 0) f->num_1d = PetscMax(f->num_1d, sum->v->cell_order[f->side[s].cell] + 1);

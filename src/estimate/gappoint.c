@@ -22,11 +22,10 @@ static void LeafPoint_Private(const ForestTables *t, const SurfaceView *s, Petsc
 /* How far the round surface stands out of a facet at xi. */
 static PetscErrorCode Bulge_Private(const EstimateSum *sum, const SurfaceView *s, PetscInt facet, const PetscReal xi[2], PetscReal *bulge)
 {
-  PetscReal place[3], N[SURFACE_MOST_NODES], X[3], exact[3], t[2][3], n[3];
-  Forest    forest;
+  PetscReal    place[3], N[SURFACE_MOST_NODES], X[3], exact[3], t[2][3], n[3];
+  const Forest forest = HPSpaceGetForest(sum->space);
 
   PetscFunctionBegin;
-  PetscCall(HPSpaceGetForest(sum->space, &forest));
   LeafPoint_Private(sum->t, s, facet, xi, place);
   PetscCall(ForestMapPoint(forest, s->facet_leaf[facet], place, exact));
   ContactShape_Private(s, facet, xi, N);

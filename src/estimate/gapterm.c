@@ -184,7 +184,7 @@ static PetscErrorCode Pair_Private(EstimateSum *sum, PetscMPIInt rank, const Con
   PetscFunctionBegin;
   work->sum[0] = work->sum[1] = 0;
   PetscCall(PetscArrayzero(work->leaf, sum->t->num_leaves));
-  PetscCall(ContactPairGetSegments(term->view->pair, &num, &segments));
+  ContactPairGetSegments(term->view->pair, &num, &segments);
   for (PetscInt i = 0, end; i < num; i = end) {
     const PetscInt facet = segments[i].facet;
     for (end = i; end < num && segments[end].facet == facet;) ++end;
@@ -197,13 +197,12 @@ static PetscErrorCode Pair_Private(EstimateSum *sum, PetscMPIInt rank, const Con
 
 PetscErrorCode EstimateGap_Private(EstimateSum *sum)
 {
-  GapPoints   points = {0};
-  BulgeWork   work   = {.leaf = NULL};
-  PetscMPIInt rank;
-  Forest      forest;
+  GapPoints    points = {0};
+  BulgeWork    work   = {.leaf = NULL};
+  PetscMPIInt  rank;
+  const Forest forest = HPSpaceGetForest(sum->space);
 
   PetscFunctionBegin;
-  PetscCall(HPSpaceGetForest(sum->space, &forest));
   PetscCallMPI(MPI_Comm_rank(ForestComm(forest), &rank));
   PetscCall(PetscMalloc1(sum->t->num_leaves, &work.leaf));
   for (PetscInt i = 0; i < sum->contact->num; ++i) {

@@ -309,15 +309,14 @@ static PetscErrorCode Cells_Private(EstimateSum *sum, PetscReal height[][3])
 
 PetscErrorCode EstimateBulk_Private(EstimateSum *sum)
 {
-  Forest forest;
   PetscReal(*height)[3];
 
   PetscFunctionBegin;
-  PetscCall(HPSpaceGetTables(sum->space, &sum->v));
-  PetscCall(HPSpaceGetForest(sum->space, &forest));
-  PetscCall(ForestGetTables(forest, &sum->t));
-  sum->energy  = 0;
-  sum->overlap = (EstimateOverlap){0};
+  sum->v              = HPSpaceGetTables(sum->space);
+  const Forest forest = HPSpaceGetForest(sum->space);
+  sum->t              = ForestGetTables(forest);
+  sum->energy         = 0;
+  sum->overlap        = (EstimateOverlap){0};
   PetscCall(PetscArrayzero(sum->part, NUM_PARTS));
   PetscCall(FacetListCreate_Private(sum, &sum->facets));
   PetscCall(PetscCalloc5(sum->facets.num_points, &sum->defect, sum->facets.num_points, &sum->normal, sum->facets.num_points, &sum->flux, sum->facets.num_points,
@@ -397,11 +396,10 @@ static PetscErrorCode Reduce_Private(MPI_Comm comm, EstimateSum *sum, Estimate *
 static PetscErrorCode Choice_Private(const SceneData *scene, const EstimateSum *sum, const State *state, Estimate *e)
 {
   const PetscMPIInt num = (PetscMPIInt)e->num_leaves;
-  Forest            forest;
 
   PetscFunctionBegin;
   if (scene->adapt.strategy == ADAPT_H) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(HPSpaceGetForest(sum->space, &forest));
+  const Forest forest = HPSpaceGetForest(sum->space);
   PetscCall(PetscCalloc1(num, &e->decay));
   PetscCall(PetscCalloc1(num, &e->irregular));
   PetscCall(PetscMalloc1(num, &e->order));
@@ -417,18 +415,17 @@ static PetscErrorCode Choice_Private(const SceneData *scene, const EstimateSum *
 PetscErrorCode EstimateCompute(Problem problem, const State *state, Estimate *e)
 {
   const SceneData *scene;
-  const HPTables  *v;
   ContactTerms     contact;
   EstimateSum      sum = {.time = state->t};
   PetscReal       *u;
 
   PetscFunctionBegin;
   PetscCall(StageBegin(STAGE_ESTIMATE));
-  PetscCall(ProblemGetScene(problem, &scene));
-  sum.space     = ProblemSpace(problem);
-  sum.mechanics = ProblemMechanics(problem);
-  PetscCall(HPSpaceGetTables(sum.space, &v));
-  sum.spec = &scene->mechanics;
+  scene             = ProblemGetScene(problem);
+  sum.space         = ProblemSpace(problem);
+  sum.mechanics     = ProblemMechanics(problem);
+  const HPTables *v = HPSpaceGetTables(sum.space);
+  sum.spec          = &scene->mechanics;
   PetscCall(ProblemSetState(problem, state));
   if (scene->num_contacts) {
     PetscCall(ProblemRefresh(problem, state->x));

@@ -91,7 +91,7 @@ static PetscErrorCode Linear_Private(const EstimateSum *sum, const SurfaceView *
     const PetscInt cell = leaf_cell[s->facet_leaf[e]];
     PetscInt       order;
     if (cell < 0 || cell >= sum->v->num_owned_cells) continue;
-    PetscCall(HPSpaceGetOrder(sum->space, s->facet_entity[e], &order));
+    order = HPSpaceGetOrder(sum->space, s->facet_entity[e]);
     if (order == 1 && sum->v->cell_order[cell] > 1) irregular[s->facet_leaf[e]] |= ESTIMATE_IRREGULAR_FACE;
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -142,10 +142,9 @@ PetscErrorCode EstimateIrregular_Private(const EstimateSum *sum, int8_t irregula
   const ForestTables *t = sum->t;
   int8_t             *touched;
   PetscInt           *leaf_cell;
-  Forest              forest;
+  const Forest        forest = HPSpaceGetForest(sum->space);
 
   PetscFunctionBegin;
-  PetscCall(HPSpaceGetForest(sum->space, &forest));
   PetscCall(PetscCalloc1(t->num_entities, &touched));
   PetscCall(PetscMalloc1(t->num_leaves, &leaf_cell));
   for (PetscInt l = 0; l < t->num_leaves; ++l) leaf_cell[l] = -1;

@@ -37,11 +37,10 @@ static void Split_Private(const ForestTables *t, uint64_t groups, int8_t split[]
 PetscErrorCode EstimateMarkLayers(const Estimate *e, const SceneData *data, Forest forest, const int8_t order[], PetscInt subdivided[], MarkList *marks,
                                   PetscInt *num_marked, PetscBool *room)
 {
-  const ForestTables *t;
+  const ForestTables *t   = ForestGetTables(forest);
   uint64_t            all = 0;
 
   PetscFunctionBegin;
-  PetscCall(ForestGetTables(forest, &t));
   PetscCall(PetscCalloc1(t->num_leaves, &marks->split));
   PetscCall(PetscCalloc1(t->num_leaves, &marks->coarsen));
   *num_marked = 0;

@@ -97,13 +97,12 @@ static void Low_Private(const Estimate *e, const AdaptSpec *spec, const ForestTa
 
 PetscErrorCode EstimateMark(const Estimate *e, const AdaptSpec *spec, Forest forest, MarkList *marks, int8_t order[], PetscInt *num_marked)
 {
-  const ForestTables *t;
+  const ForestTables *t = ForestGetTables(forest);
   Rank               *rank;
   int8_t             *split, *raise;
   PetscReal           left;
 
   PetscFunctionBegin;
-  PetscCall(ForestGetTables(forest, &t));
   PetscCheck(e->num_leaves == t->num_leaves, PETSC_COMM_SELF, PETSC_ERR_ARG_INCOMP, "estimate of %" PetscInt_FMT " leaves for a forest of %" PetscInt_FMT,
              e->num_leaves, t->num_leaves);
   PetscCheck(!order == (spec->strategy == ADAPT_H), PETSC_COMM_SELF, PETSC_ERR_ARG_INCOMP, "orders come with the strategies p and hp, and only with them");

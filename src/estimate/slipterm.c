@@ -37,11 +37,10 @@ static void Point_Private(EstimateSum *sum, const ContactTerm *term, const Conta
 
 PetscErrorCode EstimateSlip_Private(EstimateSum *sum)
 {
-  PetscMPIInt rank;
-  Forest      forest;
+  PetscMPIInt  rank;
+  const Forest forest = HPSpaceGetForest(sum->space);
 
   PetscFunctionBegin;
-  PetscCall(HPSpaceGetForest(sum->space, &forest));
   PetscCallMPI(MPI_Comm_rank(ForestComm(forest), &rank));
   for (PetscInt i = 0; i < sum->contact->num; ++i) {
     const ContactTerm *term = &sum->contact->terms[i];

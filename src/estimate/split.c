@@ -47,10 +47,9 @@ static int8_t Rounder_Private(PetscInt dim, const PetscReal length[3], PetscReal
 
 PetscErrorCode EstimateSplits_Private(const Estimate *e, const AdaptSpec *spec, Forest forest, int8_t split[])
 {
-  const ForestTables *t;
+  const ForestTables *t = ForestGetTables(forest);
 
   PetscFunctionBegin;
-  PetscCall(ForestGetTables(forest, &t));
   for (PetscInt l = 0; l < t->num_leaves; ++l) {
     PetscReal length[3];
     split[l] = (int8_t)((1 << t->dim) - 1);

@@ -73,18 +73,14 @@ PetscErrorCode ForestDestroy(Forest *forest)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ForestGetCoarse(Forest forest, const CoarseMesh **mesh)
+const CoarseMesh *ForestGetCoarse(Forest forest)
 {
-  PetscFunctionBegin;
-  *mesh = &forest->coarse->mesh;
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return &forest->coarse->mesh;
 }
 
-PetscErrorCode ForestGetTables(Forest forest, const ForestTables **tables)
+const ForestTables *ForestGetTables(Forest forest)
 {
-  PetscFunctionBegin;
-  *tables = &forest->tables;
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return &forest->tables;
 }
 
 MPI_Comm ForestComm(Forest forest)

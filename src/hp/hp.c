@@ -11,8 +11,8 @@ PetscErrorCode HPSpaceCreate(Forest forest, const int8_t leaf_order[], const int
   PetscFunctionBegin;
   PetscCall(PetscNew(&hp));
   hp->forest = forest;
-  PetscCall(ForestGetTables(forest, &hp->tables));
-  hp->dim = hp->tables->dim;
+  hp->tables = ForestGetTables(forest);
+  hp->dim    = hp->tables->dim;
   PetscCall(ForestGetLeafDM(forest, &leaf, &num_owned, &hp->num_points, &hp->point_entity));
   PetscCall(DMClone(leaf, &hp->dm));
   PetscCall(HPSpaceOrders_Private(hp, leaf_order, leaf_cap, linear_groups));
@@ -68,25 +68,19 @@ PetscErrorCode HPSpaceDestroy(HPSpace *space)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode HPSpaceGetTables(HPSpace hp, const HPTables **tables)
+const HPTables *HPSpaceGetTables(HPSpace hp)
 {
-  PetscFunctionBegin;
-  *tables = &hp->view;
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return &hp->view;
 }
 
-PetscErrorCode HPSpaceGetForest(HPSpace hp, Forest *forest)
+Forest HPSpaceGetForest(HPSpace hp)
 {
-  PetscFunctionBegin;
-  *forest = hp->forest;
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return hp->forest;
 }
 
-PetscErrorCode HPSpaceGetDM(HPSpace hp, DM *dm)
+DM HPSpaceGetDM(HPSpace hp)
 {
-  PetscFunctionBegin;
-  *dm = hp->dm;
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return hp->dm;
 }
 
 PetscErrorCode HPSpaceGetGlobalDofs(HPSpace hp, const PetscInt **dofs)
@@ -103,11 +97,9 @@ PetscErrorCode HPSpaceGetFrame(HPSpace hp, PetscInt node, const PetscReal **fram
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode HPSpaceGetOrder(HPSpace hp, PetscInt entity, PetscInt *order)
+PetscInt HPSpaceGetOrder(HPSpace hp, PetscInt entity)
 {
-  PetscFunctionBegin;
-  *order = hp->entity_order[entity];
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return hp->entity_order[entity];
 }
 
 PetscErrorCode HPSpaceGetAxisOrders(HPSpace hp, PetscInt entity, PetscInt orders[3])

@@ -112,11 +112,10 @@ static void FacetOrders_Private(const ForestTables *t, const int8_t leaf_order[]
 
 PetscErrorCode HPOrdersLimit(Forest forest, PetscInt difference, const int8_t fixed[], int8_t order[])
 {
-  const ForestTables *t;
+  const ForestTables *t = ForestGetTables(forest);
   int8_t             *facet_order;
 
   PetscFunctionBegin;
-  PetscCall(ForestGetTables(forest, &t));
   PetscCall(PetscMalloc1(t->first[t->dim] - t->first[t->dim - 1], &facet_order));
   for (PetscBool changed = PETSC_TRUE; changed;) {
     changed = PETSC_FALSE;

@@ -182,12 +182,11 @@ static PetscBool IsCrease_Private(const Surface *s, PetscInt n)
 /* A node that a support holds across the surface carries no multiplier: its constraint would have nothing of its own to act on, and where the nonmortar side is
    finer a row of such nodes leaves no multiplier unique. (Nodes of rigid bodies keep theirs: the other side moves.) Hanging nodes have none: their masters act
    for them. */
-PetscErrorCode ContactCarriers_Private(Interface p, Contact *c)
+void ContactCarriers_Private(Interface p, Contact *c)
 {
   const ForestTables *t = p->tables;
   const Surface      *s = &c->side[0];
 
-  PetscFunctionBegin;
   for (PetscInt n = 0; n < s->num_nodes; ++n) {
     if (s->hang[n] < s->hang[n + 1]) continue;
     const PetscInt facet = s->node_facet[s->node_first[n]];
@@ -198,5 +197,4 @@ PetscErrorCode ContactCarriers_Private(Interface p, Contact *c)
     NodeNormal_Private(s, n, normal);
     c->has_multiplier[n] = (PetscBool)(rigid || !IsHeld_Private(s, n, normal));
   }
-  PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -4,15 +4,13 @@
    is the greater one. At a solution dz is 0, and the order of convergence stays: w changes by no more than the step does. */
 #include "interfaceimpl.h"
 
-PetscErrorCode InterfaceKeepWeights(Interface p)
+void InterfaceKeepWeights(Interface p)
 {
-  PetscFunctionBegin;
   for (PetscInt i = 0; i < p->num_contacts; ++i) {
     const Contact *c = &p->contacts[i];
     const Surface *s = &c->side[0];
     for (PetscInt k = 0; k < s->num_own && !c->tie; ++k) c->before[s->own[k]] = c->spring[s->own[k]] > 0 ? c->weight[s->own[k]] : PETSC_INFINITY;
   }
-  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode InterfaceCarryForces(Interface p, Vec dx, PetscBool *changed)

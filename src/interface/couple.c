@@ -72,7 +72,6 @@ PetscErrorCode ContactNodeSums_Private(Interface p, Contact *c)
 {
   const Surface *s      = &c->side[0];
   PetscReal      sum[2] = {0, 0};
-  PetscInt       unusable;
 
   PetscFunctionBegin;
   for (PetscInt i = 0; i < s->num_own; ++i) c->gap[s->own[i]] = c->weight[s->own[i]] = c->spring[s->own[i]] = 0;
@@ -86,8 +85,8 @@ PetscErrorCode ContactNodeSums_Private(Interface p, Contact *c)
     }
     if (c->mine[e->facet]) sum[0] += e->area;
   }
-  PetscCall(ContactPairGetDegenerate(c->pair, &unusable));
-  sum[1] = (PetscReal)unusable;
+  const PetscInt unusable = ContactPairGetDegenerate(c->pair);
+  sum[1]                  = (PetscReal)unusable;
   if (p->size > 1) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPIU_REAL, MPI_SUM, p->comm));
   c->view.area     = sum[0];
   c->view.unusable = (PetscInt)sum[1];
@@ -97,23 +96,16 @@ PetscErrorCode ContactNodeSums_Private(Interface p, Contact *c)
 /* Gaps, weights and what compliances add from the ranks of the nodes to those that use them. */
 static PetscErrorCode ShareGaps_Private(Interface p, Contact *c)
 {
-  const Surface *s = &c->side[0];
+  const Surface   *s        = &c->side[0];
+  PetscReal *const value[4] = {c->gap, c->weight, c->spring, c->coupled};
 
   PetscFunctionBegin;
   if (p->size == 1) PetscFunctionReturn(PETSC_SUCCESS);
-  for (PetscInt i = 0; i < s->num_own; ++i) {
-    c->pack[4 * s->own[i]]     = c->gap[s->own[i]];
-    c->pack[4 * s->own[i] + 1] = c->weight[s->own[i]];
-    c->pack[4 * s->own[i] + 2] = c->spring[s->own[i]];
-    c->pack[4 * s->own[i] + 3] = c->coupled[s->own[i]];
-  }
+  for (PetscInt i = 0; i < s->num_own; ++i)
+    for (PetscInt k = 0; k < 4; ++k) c->pack[4 * s->own[i] + k] = value[k][s->own[i]];
   PetscCall(LinkSpread_Private(p, &s->values, 4, c->pack));
-  for (PetscInt i = 0; i < s->values.num; ++i) {
-    c->gap[s->values.nodes[i]]     = c->pack[4 * s->values.nodes[i]];
-    c->weight[s->values.nodes[i]]  = c->pack[4 * s->values.nodes[i] + 1];
-    c->spring[s->values.nodes[i]]  = c->pack[4 * s->values.nodes[i] + 2];
-    c->coupled[s->values.nodes[i]] = c->pack[4 * s->values.nodes[i] + 3];
-  }
+  for (PetscInt i = 0; i < s->values.num; ++i)
+    for (PetscInt k = 0; k < 4; ++k) value[k][s->values.nodes[i]] = c->pack[4 * s->values.nodes[i] + k];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -152,8 +144,8 @@ PetscErrorCode ContactCreate_Private(Interface p, const ContactSpec *spec, Conta
   PetscCall(ContactPairCreate(p->dim, axisymmetric, spec, &c->pair));
   for (PetscInt k = 0; k < 2; ++k) PetscCall(HullParts_Private(p, &c->side[k], &c->part[k]));
   PetscReal deepest;
-  PetscCall(HullDepth_Private(p, c, &deepest));
-  if (!spec->see_through && !c->law->ties) PetscCall(ContactPairSetHull(c->pair, p->hull, c->part[0], c->part[1], deepest));
+  HullDepth_Private(p, c, &deepest);
+  if (!spec->see_through && !c->law->ties) ContactPairSetHull(c->pair, p->hull, c->part[0], c->part[1], deepest);
   const PetscInt n = c->side[0].num_nodes;
   PetscCall(PetscCalloc6(c->num * n, &c->z, n, &c->gap, n, &c->weight, n, &c->w0, n, &c->extent, n, &c->c));
   PetscCall(PetscCalloc4(n, &c->spring, n, &c->coupled, n, &c->softness, n, &c->before));
@@ -163,12 +155,12 @@ PetscErrorCode ContactCreate_Private(Interface p, const ContactSpec *spec, Conta
   PetscCall(PetscCalloc3(n, &c->reach, n, &c->initial, n, &c->initial_gap));
   PetscCall(PetscCalloc4(c->side[0].num_facets, &c->live, n, &c->valued, n, &c->valued_node, 4 * n, &c->pack));
   PetscCall(ContactNodeScales_Private(p, c));
-  if (!c->law->ties) PetscCall(ContactCarriers_Private(p, c));
+  if (!c->law->ties) ContactCarriers_Private(p, c);
   const ContactSurface nonmortar = SurfaceAt_Private(&c->side[0], c->side[0].X);
   PetscCall(ContactPairSetCarriers(c->pair, &nonmortar, c->has_multiplier));
   for (PetscInt j = 0; j < n; ++j) c->softness[j] = 1 / c->c[j];
   /* With small kinematics what facets cover does not change, and constraints of order 1 stay exact. */
-  if (c->law->ties || higher || p->spec->kinematics != KINEMATICS_SMALL) PetscCall(ContactPairSetSoftness(c->pair, c->softness));
+  if (c->law->ties || higher || p->spec->kinematics != KINEMATICS_SMALL) ContactPairSetSoftness(c->pair, c->softness);
   PetscCall(ListFacets_Private(p, c));
   SearchDistance_Private(c);
   View_Private(c);
@@ -183,27 +175,20 @@ PetscErrorCode ContactDestroy_Private(Contact *c)
   PetscFunctionBegin;
   PetscCall(TieDestroy_Private(c));
   PetscCall(SlipDestroy_Private(c));
-  PetscCall(PetscFree(c->frozen));
-  PetscCall(PetscFree(c->shared));
-  PetscCall(PetscFree(c->mean0));
+  PetscCall(FreeAll(13, (void *[]){&c->frozen, &c->shared, &c->mean0, &c->all_real[0], &c->all_real[1], &c->all_active, &c->part[0], &c->part[1], &c->link[0],
+                                   &c->link[1], &c->pattern_offset, &c->pattern, &c->result}));
   PetscCall(ContactPairDestroy(&c->pair));
-  for (PetscInt k = 0; k < 2; ++k) PetscCall(PetscFree(c->part[k]));
   PetscCall(SurfaceDestroy_Private(&c->side[0]));
   PetscCall(SurfaceDestroy_Private(&c->side[1]));
   PetscCall(PetscFree6(c->z, c->gap, c->weight, c->w0, c->extent, c->c));
   PetscCall(PetscFree4(c->spring, c->coupled, c->softness, c->before));
   PetscCall(PetscFree5(c->active, c->has_multiplier, c->lift, c->change, c->near));
-  PetscCall(PetscFree(c->result));
   PetscCall(PetscFree4(c->zdof, c->zlocal, c->gap0, c->offset));
   PetscCall(PetscFree3(c->reach, c->initial, c->initial_gap));
   PetscCall(PetscFree2(c->closed, c->corner_gap));
-  for (PetscInt k = 0; k < 2; ++k) PetscCall(PetscFree(c->link[k]));
   PetscCall(PetscFree4(c->live, c->valued, c->valued_node, c->pack));
-  PetscCall(ContactGatherDestroy_Private(c));
   PetscCall(PetscFree2(c->listed, c->mine));
   for (PetscInt k = 0; k < 2; ++k) PetscCall(PetscFree2(c->inward[k], c->moved[k]));
-  PetscCall(PetscFree(c->pattern_offset));
-  PetscCall(PetscFree(c->pattern));
   if (!c->spec->part) PetscCall(PetscFree(c->precedence)); /* else borrowed from the first part */
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -245,7 +230,7 @@ static PetscErrorCode Freeze_Private(Interface p, Contact *c, PetscBool *failed)
 
   PetscFunctionBegin;
   PetscCall(ContactSearch_Private(p, c, PETSC_TRUE, 0));
-  PetscCall(ContactPairFreezeNormals(c->pair, PETSC_TRUE));
+  ContactPairFreezeNormals(c->pair, PETSC_TRUE);
   PetscCall(SlipFreeze_Private(p, c, failed));
   PetscCall(ContactPairEvaluate(c->pair, &side[0], &side[1], NULL, NULL, PETSC_TRUE, PETSC_FALSE, &c->num_facets, &c->facets, failed));
   PetscCall(ContactNodeSums_Private(p, c));
@@ -327,12 +312,11 @@ static void LinearGaps_Private(Interface p, Contact *c)
 
 /* Nodes that may take part in the next linear solve: pressed, or closer (compliances of facets counted in) than half a facet beside what prescribed motion may
    still close. Three dimensions: the others get no row in the matrix, which they would only fill. Every rank that knows the node says the same. */
-static PetscErrorCode Near_Private(Interface p, Contact *c, PetscReal pending)
+static void Near_Private(Interface p, Contact *c, PetscReal pending)
 {
   const Surface *s     = &c->side[0];
   PetscInt       order = 1; /* extents are those of facets over it */
 
-  PetscFunctionBegin;
   for (PetscInt f = 0; f < s->num_facets; ++f) order = PetscMax(order, s->order[f]);
   for (PetscInt i = 0; i < c->num_valued; ++i) {
     const PetscInt  j = c->valued_node[i];
@@ -341,7 +325,6 @@ static PetscErrorCode Near_Private(Interface p, Contact *c, PetscReal pending)
     c->near[j] = (PetscBool)(c->has_multiplier[j] && (c->z[j] != 0 || reach));
     if (p->dim == 2) c->near[j] = PETSC_TRUE;
   }
-  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* The pressure at nodes without multiplier, shown there and used by the estimate. Supports hold them, or they lie on the axis: from the nodes that their
@@ -353,7 +336,7 @@ static PetscErrorCode ShownMultipliers_Private(Interface p, Contact *c)
   const PetscReal *weight;
 
   PetscFunctionBegin;
-  PetscCall(ContactPairGetDonors(c->pair, &first, &donor, &weight));
+  ContactPairGetDonors(c->pair, &first, &donor, &weight);
   for (PetscInt i = 0; i < s->num_own && first; ++i) {
     const PetscInt n = s->own[i];
     PetscReal      z = 0;
@@ -395,13 +378,13 @@ PetscErrorCode ContactEvaluate_Private(Interface p, Contact *c, Vec x, const Pet
       PetscCall(ContactNodeSums_Private(p, c));
       PetscCall(Subtract_Private(p, c));
     }
-    PetscCall(Near_Private(p, c, pending));
+    Near_Private(p, c, pending);
     PetscCall(ContactPairEvaluate(c->pair, &side[0], &side[1], c->z, c->near, derivatives, hessian, &c->num_facets, &c->facets, failed));
     PetscCall(ContactNodeSums_Private(p, c));
   }
   PetscCall(Subtract_Private(p, c));
   PetscCall(SlipEvaluate_Private(p, c));
-  if (small) PetscCall(Near_Private(p, c, pending));
+  if (small) Near_Private(p, c, pending);
   for (PetscInt e = 0; e < c->side[0].num_facets; ++e) c->result[e] = -1;
   for (PetscInt i = 0; i < c->num_facets; ++i) c->result[c->facets[i].facet] = i;
   Activity_Private(p, c);

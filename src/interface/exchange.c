@@ -122,15 +122,14 @@ PetscBool ContactSees_Private(const Contact *c, PetscInt node)
 
 /* Nodes of both sides that this rank needs: for the facets it evaluates, to know the values on its own facets, and for the pressure at owned nodes without
    multiplier. own: set for all nodes of its own facets. */
-static PetscErrorCode Need_Private(const Contact *c, PetscBool *need[2], PetscBool own[])
+static void Need_Private(const Contact *c, PetscBool *need[2], PetscBool own[])
 {
   const Surface   *s = &c->side[0], *m = &c->side[1];
-  const PetscInt  *start, *candidate, *donor, *parent;
+  const PetscInt  *start, *candidate, *donor;
   const PetscReal *weight;
 
-  PetscFunctionBegin;
-  PetscCall(ContactPairGetCandidates(c->pair, &start, &candidate));
-  PetscCall(ContactPairGetMortarParents(c->pair, &parent));
+  ContactPairGetCandidates(c->pair, &start, &candidate);
+  const PetscInt *parent = ContactPairGetMortarParents(c->pair);
   for (PetscInt i = 0; i < c->num_listed; ++i) {
     const PetscInt f = c->listed[i];
     for (PetscInt k = s->true_first[f]; start[i] < start[i + 1] && k < s->true_first[f + 1]; ++k) {
@@ -146,11 +145,10 @@ static PetscErrorCode Need_Private(const Contact *c, PetscBool *need[2], PetscBo
   for (PetscInt n = 0; n < s->num_nodes; ++n) {
     if (own[n] && ContactSees_Private(c, n)) need[0][n] = PETSC_TRUE;
   }
-  PetscCall(ContactPairGetDonors(c->pair, &start, &donor, &weight));
+  ContactPairGetDonors(c->pair, &start, &donor, &weight);
   for (PetscInt n = 0; n < s->num_nodes && start; ++n) {
     for (PetscInt k = start[n]; k < start[n + 1] && s->owned[n] && ContactSees_Private(c, n); ++k) need[0][donor[k]] = PETSC_TRUE;
   }
-  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Both links of a side made for what is needed, if that is not what they are made for. */
@@ -206,7 +204,7 @@ PetscErrorCode ContactLink_Private(Interface p, Contact *c)
 
   PetscFunctionBegin;
   PetscCall(PetscCalloc3(c->side[0].num_nodes, &need[0], c->side[1].num_nodes, &need[1], c->side[0].num_nodes, &own));
-  PetscCall(Need_Private(c, need, own));
+  Need_Private(c, need, own);
   for (PetscInt k = 0; k < 2; ++k) {
     Surface *s = &c->side[k];
     if (p->size > 1) PetscCall(Links_Private(p, s, need[k]));
@@ -220,9 +218,7 @@ PetscErrorCode ContactLink_Private(Interface p, Contact *c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode InterfaceGetTraffic(Interface p, ContactTraffic *traffic)
+void InterfaceGetTraffic(Interface p, ContactTraffic *traffic)
 {
-  PetscFunctionBegin;
   *traffic = p->traffic;
-  PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -63,9 +63,8 @@ PetscErrorCode InterfaceForces(Interface p, PetscReal local[])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode InterfaceRows(Interface p, PetscReal r[])
+void InterfaceRows(Interface p, PetscReal r[])
 {
-  PetscFunctionBegin;
   for (PetscInt i = 0; i < p->num_contacts; ++i) {
     const Contact *c = &p->contacts[i];
     for (PetscInt j = 0; j < c->side[0].num_nodes; ++j) {
@@ -75,7 +74,6 @@ PetscErrorCode InterfaceRows(Interface p, PetscReal r[])
       for (PetscInt k = 0; k < c->num; ++k) r[c->zlocal[j] + k] = -row[k].side;
     }
   }
-  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode InterfaceHoldsLines(Interface p, PetscBool *holds)

@@ -3,14 +3,6 @@
 
 #define SIDE_REALS(dim, num) (3 * (dim) + 6 + (num)) /* of a node: position, normal, force, gap, weight, multipliers, slip, tangential traction */
 
-PetscErrorCode ContactGatherDestroy_Private(Contact *c)
-{
-  PetscFunctionBegin;
-  for (PetscInt k = 0; k < 2; ++k) PetscCall(PetscFree(c->all_real[k]));
-  PetscCall(PetscFree(c->all_active));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* Space: the tangential traction on the mortar side at a node whose value is known here; of a node that hangs that between its masters. */
 static PetscErrorCode Traction_Private(const Contact *c, PetscInt j, PetscReal traction[3])
 {
@@ -53,15 +45,14 @@ PetscErrorCode InterfaceResolveTractions(Interface p, PetscInt pair, const Petsc
 
 static PetscErrorCode Side_Private(Interface p, Contact *c, PetscInt k)
 {
-  const Surface   *s = &c->side[k];
-  const PetscInt   n = s->num_nodes, dim = s->dim;
-  const PetscReal *normal;
+  const Surface *s = &c->side[k];
+  const PetscInt n = s->num_nodes, dim = s->dim;
 
   PetscFunctionBegin;
   if (!c->all_real[k]) PetscCall(PetscMalloc1(SIDE_REALS(dim, c->num) * n, &c->all_real[k]));
   PetscCall(PetscArrayzero(c->all_real[k], SIDE_REALS(dim, c->num) * n));
-  PetscReal *x = c->all_real[k], *direction = x + dim * n, *force = direction + dim * n, *value = force + dim * n;
-  PetscCall(ContactPairGetNormals(c->pair, &normal));
+  PetscReal       *x = c->all_real[k], *direction = x + dim * n, *force = direction + dim * n, *value = force + dim * n;
+  const PetscReal *normal = ContactPairGetNormals(c->pair);
   for (PetscInt j = 0; j < n; ++j) {
     if (s->owner[j] != p->rank) continue;
     PetscCall(PetscArraycpy(x + dim * j, s->x + dim * j, dim));
@@ -124,11 +115,10 @@ PetscErrorCode InterfaceFetchContact(Interface p, PetscInt pair, const PetscBool
   const Contact   *c    = &p->contacts[pair];
   const Surface   *s    = &c->side[0];
   Link             link = {0};
-  const PetscReal *own;
+  const PetscReal *own  = ContactPairGetNormals(c->pair);
   PetscInt        *nodes, num = 0;
 
   PetscFunctionBegin;
-  PetscCall(ContactPairGetNormals(c->pair, &own));
   PetscCall(PetscMalloc1(s->num_nodes, &nodes));
   for (PetscInt n = 0; n < s->num_nodes; ++n) {
     const PetscBool mine = (PetscBool)(s->owner[n] == p->rank);

@@ -3,15 +3,14 @@
 
 PetscErrorCode HullCreate_Private(Interface p)
 {
-  const CoarseMesh   *mesh;
-  const ForestTables *t   = p->tables;
+  const CoarseMesh   *mesh = ForestGetCoarse(p->forest);
+  const ForestTables *t    = p->tables;
   const PetscInt      dim = p->dim, corners = dim == 2 ? 2 : 4;
   PetscInt            num = 0, num_parts, *part;
   PetscBool          *inner;
   PetscReal          *X;
 
   PetscFunctionBegin;
-  PetscCall(ForestGetCoarse(p->forest, &mesh));
   const PetscInt first = t->first[dim - 1], last = t->first[dim];
   PetscCall(PetscMalloc1(mesh->num_cells, &p->part));
   PetscCall(ForestCoarseParts(mesh, &num_parts, p->part));
@@ -36,14 +35,6 @@ PetscErrorCode HullCreate_Private(Interface p)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode HullDestroy_Private(Interface p)
-{
-  PetscFunctionBegin;
-  PetscCall(ContactHullDestroy(&p->hull));
-  PetscCall(PetscFree(p->part));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode HullParts_Private(Interface p, const Surface *s, PetscInt **part)
 {
   const ForestTables *t = p->tables;
@@ -54,19 +45,17 @@ PetscErrorCode HullParts_Private(Interface p, const Surface *s, PetscInt **part)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode HullDepth_Private(Interface p, const Contact *c, PetscReal *deepest)
+void HullDepth_Private(Interface p, const Contact *c, PetscReal *deepest)
 {
-  PetscFunctionBegin;
   *deepest = 0;
-  if (c->spec->search > 0) PetscFunctionReturn(PETSC_SUCCESS);
+  if (c->spec->search > 0) return;
   for (PetscInt k = 0; k < 2; ++k) {
     const ContactSurface side = SurfaceAt_Private(&c->side[k], c->side[k].X);
     PetscReal            most;
 
-    PetscCall(ContactHullThickness(p->hull, &side, c->part[k], &most));
+    ContactHullThickness(p->hull, &side, c->part[k], &most);
     *deepest += 0.5 * most;
   }
-  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode InterfaceUntoldOverlap(Interface p, PetscInt pair, PetscBool reference, PetscReal *depth)
@@ -77,12 +66,12 @@ PetscErrorCode InterfaceUntoldOverlap(Interface p, PetscInt pair, PetscBool refe
   PetscFunctionBegin;
   *depth = 0;
   if (c->tie) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(HullDepth_Private(p, c, &deepest));
+  HullDepth_Private(p, c, &deepest);
   if (!(deepest > 0) || c->spec->see_through) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(ContactPairSetHull(c->pair, p->hull, c->part[0], c->part[1], 2 * deepest));
+  ContactPairSetHull(c->pair, p->hull, c->part[0], c->part[1], 2 * deepest);
   PetscCall(ContactSearch_Private(p, c, reference, 0));
-  PetscCall(ContactPairGetUntold(c->pair, depth));
-  PetscCall(ContactPairSetHull(c->pair, p->hull, c->part[0], c->part[1], deepest));
+  ContactPairGetUntold(c->pair, depth);
+  ContactPairSetHull(c->pair, p->hull, c->part[0], c->part[1], deepest);
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, depth, 1, MPIU_REAL, MPI_MAX, p->comm));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -14,10 +14,10 @@ PetscErrorCode InterfaceCreate(HPSpace space, Mechanics mechanics, const Mechani
   p->spec         = spec;
   p->fixed        = fixed;
   p->num_contacts = num;
-  PetscCall(HPSpaceGetForest(space, &p->forest));
-  PetscCall(ForestGetTables(p->forest, &p->tables));
-  p->dim  = p->tables->dim;
-  p->comm = ForestComm(p->forest);
+  p->forest       = HPSpaceGetForest(space);
+  p->tables       = ForestGetTables(p->forest);
+  p->dim          = p->tables->dim;
+  p->comm         = ForestComm(p->forest);
   PetscCallMPI(MPI_Comm_rank(p->comm, &p->rank));
   PetscCallMPI(MPI_Comm_size(p->comm, &p->size));
   for (PetscMPIInt k = 1; k <= MOST_REALS; ++k) {
@@ -43,19 +43,18 @@ PetscErrorCode InterfaceDestroy(Interface *interface)
   for (PetscMPIInt k = 1; k <= MOST_REALS; ++k) PetscCallMPI(MPI_Type_free(&p->unit[k]));
   for (PetscInt i = 0; i < p->num_contacts; ++i) PetscCall(ContactDestroy_Private(&p->contacts[i]));
   PetscCall(PetscFree(p->contacts));
-  PetscCall(HullDestroy_Private(p));
+  PetscCall(ContactHullDestroy(&p->hull));
   PetscCall(RowBufferDestroy(&p->work));
   PetscCall(PetscFree(p->hessian));
+  PetscCall(PetscFree(p->part));
   PetscCall(PetscFree(*interface));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode InterfaceSetForm(Interface p, const Form *form)
+void InterfaceSetForm(Interface p, const Form *form)
 {
-  PetscFunctionBegin;
   p->form = form;
-  for (PetscInt i = 0; i < p->num_contacts; ++i) PetscCall(ContactPairFreezeSegmentation(p->contacts[i].pair, form->frozen_segmentation));
-  PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt i = 0; i < p->num_contacts; ++i) ContactPairFreezeSegmentation(p->contacts[i].pair, form->frozen_segmentation);
 }
 
 PetscBool InterfaceIsSymmetric(Interface p)
@@ -103,21 +102,17 @@ PetscErrorCode InterfaceSetRows(Interface p, PetscInt counts[], const PetscInt o
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode InterfaceGetContact(Interface p, PetscInt pair, const ContactView **view)
+const ContactView *InterfaceGetContact(Interface p, PetscInt pair)
 {
-  PetscFunctionBegin;
-  *view = &p->contacts[pair].view;
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return &p->contacts[pair].view;
 }
 
-PetscErrorCode InterfaceCost(Interface p, PetscInt pair, PetscReal *seconds, PetscReal *all, PetscBool *room)
+void InterfaceCost(Interface p, PetscInt pair, PetscReal *seconds, PetscReal *all, PetscBool *room)
 {
-  PetscFunctionBegin;
   *all = 0;
   for (PetscInt i = 0; i < p->num_contacts; ++i) *all += p->contacts[i].seconds;
   *seconds = p->contacts[pair].seconds;
   *room    = (PetscBool)(p->contacts[pair].pattern_offset != NULL);
-  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Add the time since `begin` to that of a pair. */
@@ -173,9 +168,9 @@ PetscErrorCode InterfaceSearch(Interface p, Vec x, const PetscReal u[], PetscBoo
       SurfaceForget_Private(&c->side[k]);
       SurfacePlace_Private(&c->side[k], u, ContactBase_Private(c, k), c->side[k].x);
     }
-    PetscCall(ContactPairGoOn(c->pair, goes_on));
+    ContactPairGoOn(c->pair, goes_on);
     PetscCall(ContactSearch_Private(p, c, PETSC_FALSE, NEAR * c->distance));
-    PetscCall(ContactPairGoOn(c->pair, PETSC_FALSE));
+    ContactPairGoOn(c->pair, PETSC_FALSE);
     const PetscBool last = (PetscBool)(i + 1 == p->num_contacts || !p->contacts[i + 1].spec->part); /* of the pair's parts */
     if (c->spec->self && last) PetscCall(ContactRoles_Private(p, c->spec->part + 1, c - c->spec->part, x, u));
     PetscCall(Took_Private(c, begin));
@@ -183,11 +178,9 @@ PetscErrorCode InterfaceSearch(Interface p, Vec x, const PetscReal u[], PetscBoo
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode InterfaceKeepSearch(Interface p)
+void InterfaceKeepSearch(Interface p)
 {
-  PetscFunctionBegin;
-  for (PetscInt i = 0; i < p->num_contacts; ++i) PetscCall(ContactPairKeepSearch(p->contacts[i].pair));
-  PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt i = 0; i < p->num_contacts; ++i) ContactPairKeepSearch(p->contacts[i].pair);
 }
 
 PetscErrorCode InterfaceEvaluate(Interface p, Vec x, const PetscReal u[], PetscReal pending, PetscBool hessian, PetscBool *failed)
@@ -197,9 +190,9 @@ PetscErrorCode InterfaceEvaluate(Interface p, Vec x, const PetscReal u[], PetscR
     Contact       *c = &p->contacts[i];
     PetscLogDouble begin;
     PetscCall(PetscTime(&begin));
-    PetscCall(ContactPairFreezeNormals(c->pair, (PetscBool)(hessian && FormHas(p->form->frozen_normals, i))));
+    ContactPairFreezeNormals(c->pair, (PetscBool)(hessian && FormHas(p->form->frozen_normals, i)));
     PetscCall(ContactEvaluate_Private(p, c, x, u, pending, PETSC_TRUE, hessian, failed));
-    PetscCall(ContactPairFreezeNormals(c->pair, PETSC_FALSE));
+    ContactPairFreezeNormals(c->pair, PETSC_FALSE);
     PetscCall(Took_Private(c, begin));
   }
   PetscFunctionReturn(PETSC_SUCCESS);

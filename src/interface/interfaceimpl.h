@@ -287,17 +287,14 @@ PetscErrorCode ContactSearch_Private(Interface, Contact *, PetscBool reference, 
 PetscErrorCode ContactRoles_Private(Interface, PetscInt num, Contact part[], Vec x, const PetscReal u[]);
 /* couple.c: multipliers from the vector to the ranks that use them. Collective. */
 PetscErrorCode ContactGatherMultipliers_Private(Interface, Contact *, Vec x);
-/* gather.c */
-PetscErrorCode ContactGatherDestroy_Private(Contact *);
 
 /* Reference positions X[2 or 4][dim] of a facet's corners, in the order of Surface.facets. Not collective. */
 PetscErrorCode SurfaceCorners_Private(Forest, PetscInt facet, PetscInt leaf, PetscReal X[]);
 /* hull.c: p->hull and p->part; parts of a surface's facets, freed by the caller. Not collective. */
 PetscErrorCode HullCreate_Private(Interface);
-PetscErrorCode HullDestroy_Private(Interface);
 PetscErrorCode HullParts_Private(Interface, const Surface *, PetscInt **part);
 /* The deepest overlap of a pair that can be told from a far side: half of what both bodies measure; 0 where the scene limits the search. Not collective. */
-PetscErrorCode HullDepth_Private(Interface, const Contact *, PetscReal *deepest);
+void HullDepth_Private(Interface, const Contact *, PetscReal *deepest);
 
 PetscErrorCode ContactCreate_Private(Interface, const ContactSpec *, Contact *);
 PetscErrorCode ContactDestroy_Private(Contact *);
@@ -448,7 +445,7 @@ PetscErrorCode ContactCrossings_Private(Interface, const Contact *, PetscBool ti
 PetscErrorCode ContactShared_Private(Interface, Contact *);
 /* carrier.c: w0, extent and c of the nodes; which of them carry a multiplier. */
 PetscErrorCode ContactNodeScales_Private(Interface, Contact *);
-PetscErrorCode ContactCarriers_Private(Interface, Contact *);
+void           ContactCarriers_Private(Interface, Contact *);
 /* Do supports leave a node of the nonmortar side free along an axis of the coordinates, and has it weight there? Until the rows of the matrix are known. */
 PetscBool ContactIsFree_Private(const Interface, const Contact *, PetscInt node, PetscInt axis);
 /* The number of directions along the surface in which supports hold the node; of one, axis. Until the rows of the matrix are known. */

@@ -63,7 +63,6 @@ static PetscErrorCode LatticeNode_Private(Lattice *l, PetscInt facet, PetscInt q
   const PetscInt      axes = t->dim - 1, at = t->closure_offset[l->s->facet_entity[facet]] + place[0] + (axes == 2 ? 3 * place[1] : 0);
   const PetscInt      entity = t->closure[at], inside = (place[0] == 1) + (axes == 2 && place[1] == 1);
   const PetscReal    *nodes;
-  PetscInt            order;
 
   PetscFunctionBegin;
   if (inside == axes) {
@@ -76,7 +75,7 @@ static PetscErrorCode LatticeNode_Private(Lattice *l, PetscInt facet, PetscInt q
   }
   const PetscInt along = place[0] == 1 ? g[0] : g[1], i = t->orientation[at] & 1 ? q - along : along;
   PetscCall(ElementGetNodes(q, &nodes));
-  PetscCall(HPSpaceGetOrder(l->space, entity, &order));
+  const PetscInt order = HPSpaceGetOrder(l->space, entity);
   PetscCall(Node_Private(l, entity, order == q ? i - 1 : -1, nodes[i], node));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -163,7 +162,7 @@ PetscErrorCode SurfaceLattice_Private(HPSpace space, const ForestTables *t, Surf
   s->first[0] = 0;
   for (PetscInt f = 0; f < s->num_facets; ++f) {
     PetscInt q;
-    PetscCall(HPSpaceGetOrder(space, s->facet_entity[f], &q));
+    q               = HPSpaceGetOrder(space, s->facet_entity[f]);
     s->order[f]     = (int8_t)q;
     s->higher       = (PetscBool)(s->higher || q > 1);
     s->first[f + 1] = s->first[f] + ElementNumNodes(s->dim - 1, q);
@@ -172,9 +171,7 @@ PetscErrorCode SurfaceLattice_Private(HPSpace space, const ForestTables *t, Surf
   for (PetscInt f = 0; f < s->num_facets; ++f) PetscCall(FacetLattice_Private(&l, f));
   PetscCall(Rows_Private(&l));
   PetscCall(PetscHMapIDestroy(&l.number));
-  PetscCall(PetscFree(l.place));
-  PetscCall(PetscFree(l.master));
-  PetscCall(PetscFree(l.weight));
+  PetscCall(FreeAll(3, (void *[]){&l.place, &l.master, &l.weight}));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

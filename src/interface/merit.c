@@ -3,11 +3,9 @@
 #include "interfaceimpl.h"
 
 /* Constraints without compliance (on false), or as they were. */
-static PetscErrorCode Softness_Private(Interface p, PetscBool on)
+static void Softness_Private(Interface p, PetscBool on)
 {
-  PetscFunctionBegin;
-  for (PetscInt i = 0; i < p->num_contacts; ++i) PetscCall(ContactPairSetSoftness(p->contacts[i].pair, on ? p->contacts[i].softness : NULL));
-  PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt i = 0; i < p->num_contacts; ++i) ContactPairSetSoftness(p->contacts[i].pair, on ? p->contacts[i].softness : NULL);
 }
 
 static PetscReal Pressure_Private(const Contact *c, PetscInt j, PetscReal factor, PetscReal lambda)
@@ -84,9 +82,9 @@ PetscErrorCode InterfaceMerit(Interface p, PetscReal factor, Vec lambda, const P
                               PetscBool *failed)
 {
   PetscFunctionBegin;
-  PetscCall(Softness_Private(p, PETSC_FALSE));
+  Softness_Private(p, PETSC_FALSE);
   for (PetscInt i = 0; i < p->num_contacts; ++i) PetscCall(Pair_Private(p, &p->contacts[i], factor, lambda, u, pending, r, x, energy, failed));
-  PetscCall(Softness_Private(p, PETSC_TRUE));
+  Softness_Private(p, PETSC_TRUE);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -111,7 +109,7 @@ PetscErrorCode InterfaceMeritDepth(Interface p, Vec depth)
 PetscErrorCode InterfaceMeritEvaluate(Interface p, Vec x, const PetscReal u[], PetscReal pending, PetscBool open, PetscBool *failed)
 {
   PetscFunctionBegin;
-  PetscCall(Softness_Private(p, PETSC_FALSE));
+  Softness_Private(p, PETSC_FALSE);
   for (PetscInt i = 0; i < p->num_contacts; ++i) {
     Contact *c = &p->contacts[i];
     PetscCall(ContactEvaluate_Private(p, c, x, u, pending, PETSC_TRUE, PETSC_TRUE, failed));
@@ -120,7 +118,7 @@ PetscErrorCode InterfaceMeritEvaluate(Interface p, Vec x, const PetscReal u[], P
       c->active[j]     = (PetscBool)(!open && c->has_multiplier[j] && c->z[j] > 0);
     }
   }
-  PetscCall(Softness_Private(p, PETSC_TRUE));
+  Softness_Private(p, PETSC_TRUE);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

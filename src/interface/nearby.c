@@ -277,7 +277,7 @@ PetscErrorCode ContactSearch_Private(Interface p, Contact *c, PetscBool referenc
   c->num_facets = 0; /* results go with the search that found them */
   if (p->size > 1 && !reference) PetscCall(Boxes_Private(p, c, &side[0], margin));
   PetscCall(ContactPairSearch(c->pair, &side[0], &side[1], c->side[0].num_mine, c->side[0].mine, c->distance, margin));
-  PetscCall(ContactPairGetCandidates(c->pair, &start, &candidate));
+  ContactPairGetCandidates(c->pair, &start, &candidate);
   PetscCall(Tell_Private(p, c, start, candidate, &num, &got));
   PetscCall(Merge_Private(c, &side[0], start, candidate, num, got));
   PetscCall(PetscFree(got));

@@ -53,7 +53,7 @@ static PetscErrorCode Time_Private(Interface p, Contact *c, PetscReal t)
     c->offset[j]     = interference * c->reach[j] + c->initial[j];
   }
   for (PetscInt n = 0; n < c->side[0].num_nodes && c->closed; ++n) c->closed[n] = interference + c->corner_gap[n];
-  if (c->closed) PetscCall(ContactPairSetClosed(c->pair, c->closed));
+  if (c->closed) ContactPairSetClosed(c->pair, c->closed);
   c->view.interference = interference;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -122,7 +122,7 @@ static PetscErrorCode Lengths_Private(Interface p, Contact *c)
   }
   if (!c->spec->adjust) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(Corners_Private(p, c, c->corner_gap));
-  PetscCall(ContactPairSetClosed(c->pair, c->corner_gap));
+  ContactPairSetClosed(c->pair, c->corner_gap);
   PetscCall(AtRest_Private(p, c));
   for (PetscInt i = 0; i < s->num_own; ++i) c->initial[s->own[i]] = c->gap[s->own[i]];
   PetscFunctionReturn(PETSC_SUCCESS);

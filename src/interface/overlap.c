@@ -140,14 +140,12 @@ PetscErrorCode InterfaceNoteOverlap(Interface p, PetscReal *deepest)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode InterfaceLeaveOverlap(Interface p, PetscReal share)
+void InterfaceLeaveOverlap(Interface p, PetscReal share)
 {
-  PetscFunctionBegin;
   for (PetscInt i = 0; i < p->num_contacts; ++i) {
     p->contacts[i].overlap_share = share;
     Allow_Private(&p->contacts[i]);
   }
-  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 const PetscReal *ContactBase_Private(const Contact *c, PetscInt side)

@@ -62,10 +62,7 @@ static PetscErrorCode Append_Private(PetscInt **list, PetscInt *num, PetscInt *s
 {
   PetscFunctionBegin;
   if (Has_Private(*list + from, *num - from, value)) PetscFunctionReturn(PETSC_SUCCESS);
-  if (*num == *size) {
-    *size = PetscMax(64, 2 * *size);
-    PetscCall(PetscRealloc(*size * sizeof(PetscInt), list));
-  }
+  PetscCall(ArrayGrow(*num + 1, sizeof(PetscInt), size, list));
   (*list)[(*num)++] = value;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -210,12 +207,10 @@ PetscErrorCode InterfacePattern(Interface p, Mat matrix, PetscInt first_row, Pet
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode InterfaceGetPattern(Interface p, PetscInt pair, const PetscInt **first, const PetscInt **node)
+void InterfaceGetPattern(Interface p, PetscInt pair, const PetscInt **first, const PetscInt **node)
 {
-  PetscFunctionBegin;
   *first = p->contacts[pair].pattern_offset;
   *node  = p->contacts[pair].pattern;
-  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode InterfaceSetPattern(Interface p, PetscInt pair, const PetscInt first[], const PetscInt node[])

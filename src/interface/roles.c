@@ -101,9 +101,9 @@ static PetscErrorCode Look_Private(Interface p, Contact *c, Facing *to, PetscBoo
   PetscInt              num;
 
   PetscFunctionBegin;
-  PetscCall(ContactPairSetPrecedence(c->pair, NULL, NULL));
+  ContactPairSetPrecedence(c->pair, NULL, NULL);
   PetscCall(ContactPairEvaluate(c->pair, &side[0], &side[1], NULL, NULL, PETSC_FALSE, PETSC_FALSE, &num, &facets, failed));
-  PetscCall(ContactPairGetSegments(c->pair, &num, &segment));
+  ContactPairGetSegments(c->pair, &num, &segment);
   for (PetscInt f = 0; f < n; ++f) {
     to->partner[f]  = -1;
     to->distance[f] = PETSC_MAX_REAL;
@@ -124,10 +124,7 @@ static PetscErrorCode Look_Private(Interface p, Contact *c, Facing *to, PetscBoo
 static PetscErrorCode Add_Private(Bond **tie, PetscInt *num, PetscInt *room, PetscReal length, PetscInt a, PetscInt b, PetscBool differ)
 {
   PetscFunctionBegin;
-  if (*num == *room) {
-    *room = 2 * *room + 64;
-    PetscCall(PetscRealloc((size_t)*room * sizeof(Bond), tie));
-  }
+  PetscCall(ArrayGrow(*num + 1, sizeof(Bond), room, tie));
   (*tie)[(*num)++] = (Bond){length, a, b, differ};
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -167,19 +164,17 @@ static PetscErrorCode Colours_Private(const Surface *s, const PetscInt partner[]
 }
 
 /* Softer bodies first, then by colour, then by number. */
-static PetscErrorCode Order_Private(Interface p, const Contact *c, const PetscBool second[])
+static void Order_Private(Interface p, const Contact *c, const PetscBool second[])
 {
   const Surface      *s = &c->side[0];
   const ForestTables *t = p->tables;
 
-  PetscFunctionBegin;
   for (PetscInt f = 0; f < s->num_facets; ++f) {
     const PetscReal young  = MaterialYoung(p->spec->bodies[t->leaf_body[s->facet_leaf[f]]].material);
     PetscInt        softer = 0;
     for (PetscInt b = 0; b < p->spec->num_bodies; ++b) softer += !p->spec->bodies[b].material->law->rigid && MaterialYoung(p->spec->bodies[b].material) < young;
     c->precedence[f] = (2 * softer + (second[f] ? 1 : 0)) * s->num_facets + f;
   }
-  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode ContactRoles_Private(Interface p, PetscInt num, Contact part[], Vec x, const PetscReal u[])
@@ -204,10 +199,10 @@ PetscErrorCode ContactRoles_Private(Interface p, PetscInt num, Contact part[], V
     PetscCall(Look_Private(p, c, &facing, &failed));
     if (!c->precedence) PetscCall(PetscCalloc1(n, &c->precedence));
     PetscCall(Colours_Private(&c->side[0], facing.partner, facing.distance, facing.pressed, second));
-    PetscCall(Order_Private(p, c, second));
+    Order_Private(p, c, second);
     for (PetscInt i = 0; i < num; ++i) {
       part[i].precedence = c->precedence;
-      PetscCall(ContactPairSetPrecedence(part[i].pair, c->precedence, part[i].side[1].met));
+      ContactPairSetPrecedence(part[i].pair, c->precedence, part[i].side[1].met);
     }
   }
   PetscCall(PetscFree4(facing.partner, facing.distance, facing.pressed, second));

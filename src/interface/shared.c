@@ -51,6 +51,6 @@ PetscErrorCode ContactShared_Private(Interface p, Contact *c)
   PetscCall(ContactCrossings_Private(p, c, PETSC_FALSE, c->shared));
   for (PetscInt n = 0; n < c->side[0].num_nodes; ++n) any = (PetscBool)(any || c->shared[n]);
   if (!any) PetscCall(PetscFree(c->shared)); /* no facet has to look */
-  PetscCall(ContactPairSetShared(c->pair, c->shared));
+  ContactPairSetShared(c->pair, c->shared);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -33,13 +33,11 @@ static PetscInt SharedPlanes_Private(const Contact *c, PetscInt n, PetscReal nor
 
 /* Axes along the surface in which supports hold a node, those across a plane of symmetry first (law/coulomb.c). Nodes of rigid bodies are not held: the other
    side moves. */
-static PetscErrorCode Held_Private(Interface p, Contact *c)
+static void Held_Private(Interface p, Contact *c)
 {
   const Surface      *s = &c->side[0];
-  const ForestTables *t;
+  const ForestTables *t = ForestGetTables(p->forest);
 
-  PetscFunctionBegin;
-  PetscCall(ForestGetTables(p->forest, &t));
   for (PetscInt n = 0; n < s->num_nodes; ++n) {
     PetscReal axis[3] = {0, 0, 0}, normal[3];
     PetscInt  num     = 0;
@@ -52,18 +50,16 @@ static PetscErrorCode Held_Private(Interface p, Contact *c)
     c->slip->plane[n]     = planes;
     for (PetscInt i = 0; i < 3 && p->dim == 3 && (num == 1 || planes == 1); ++i) c->slip->axis[3 * n + i] = num == 1 ? axis[i] : normal[i];
   }
-  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SlipCreate_Private(Interface p, Contact *c)
 {
-  const PetscInt  n = c->side[0].num_nodes, m = p->dim - 1, num_facets = c->side[0].num_facets;
-  const HPTables *v;
-  SlipHistory    *s;
+  const PetscInt n = c->side[0].num_nodes, m = p->dim - 1, num_facets = c->side[0].num_facets;
+  SlipHistory   *s;
 
   PetscFunctionBegin;
   if (!c->law->slips) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(HPSpaceGetTables(p->space, &v));
+  const HPTables *v = HPSpaceGetTables(p->space);
   PetscCall(PetscNew(&s));
   s->size = p->dim * v->num_nodes;
   PetscCall(PetscCalloc7(m * n, &s->slip, n, &s->weight, m * n, &s->mean, m * n, &s->change, m * n, &s->lift, num_facets, &s->result, s->size, &s->from));
@@ -73,9 +69,9 @@ PetscErrorCode SlipCreate_Private(Interface p, Contact *c)
   c->slip      = s;
   c->view.slip = s->mean;
   PetscCall(PetscCalloc2(n, &s->held, n, &s->plane));
-  PetscCall(Held_Private(p, c));
-  PetscCall(ContactPairSetTraction(c->pair, c->z + n));
-  PetscCall(ContactPairSetAxes(c->pair, s->axis));
+  Held_Private(p, c);
+  ContactPairSetTraction(c->pair, c->z + n);
+  ContactPairSetAxes(c->pair, s->axis);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -33,11 +33,10 @@ static void FacetVertices_Private(const ForestTables *t, PetscInt facet, PetscIn
 
 PetscErrorCode SurfaceCorners_Private(Forest forest, PetscInt facet, PetscInt leaf, PetscReal X[])
 {
-  const ForestTables *t;
+  const ForestTables *t = ForestGetTables(forest);
   PetscInt            vertex[4];
 
   PetscFunctionBegin;
-  PetscCall(ForestGetTables(forest, &t));
   const PetscInt *cl = t->closure + t->closure_offset[t->first[t->dim] + leaf];
   FacetVertices_Private(t, facet, leaf, vertex);
   for (PetscInt k = 0; k < (t->dim == 2 ? 2 : 4); ++k) {
@@ -101,10 +100,7 @@ static PetscErrorCode AddNodes_Private(const Surface *s, PetscInt facet, PetscIn
 
   PetscFunctionBegin;
   for (PetscInt k = 0; k < total; ++k) room += PetscMax(1, s->hang[own[k] + 1] - s->hang[own[k]]);
-  if (room > *size) {
-    *size = 2 * room;
-    PetscCall(PetscRealloc((size_t)*size * sizeof(PetscInt), nodes));
-  }
+  PetscCall(ArrayGrow(room, sizeof(PetscInt), size, nodes));
   for (PetscInt k = 0; k < total; ++k) {
     const PetscReal *weight;
     const PetscInt  *master, num = SurfaceRow_Private(s, &own[k], &master, &weight);
@@ -132,10 +128,7 @@ static PetscErrorCode SurfaceTrue_Private(Surface *s)
     PetscCall(AddNodes_Private(s, f, &count, &size, &nodes));
     for (PetscInt g = next[f]; g != f; g = next[g]) PetscCall(AddNodes_Private(s, g, &count, &size, &nodes));
     PetscCall(PetscSortRemoveDupsInt(&count, nodes));
-    if (num + count > room) {
-      room = 2 * (num + count);
-      PetscCall(PetscRealloc((size_t)room * sizeof(PetscInt), &s->true_node));
-    }
+    PetscCall(ArrayGrow(num + count, sizeof(PetscInt), &room, &s->true_node));
     PetscCall(PetscArraycpy(s->true_node + num, nodes, count));
     s->true_first[f + 1] = num += count;
   }
@@ -212,19 +205,9 @@ PetscErrorCode SurfaceDestroy_Private(Surface *s)
 {
   PetscFunctionBegin;
   PetscCall(PetscFree3(s->facets, s->facet_leaf, s->facet_entity));
-  PetscCall(PetscFree(s->node_entity));
-  PetscCall(PetscFree(s->node_index));
-  PetscCall(PetscFree(s->order));
-  PetscCall(PetscFree(s->first));
-  PetscCall(PetscFree(s->lattice));
-  PetscCall(PetscFree(s->hang));
+  PetscCall(FreeAll(6, (void *[]){&s->node_entity, &s->node_index, &s->order, &s->first, &s->lattice, &s->hang}));
   PetscCall(PetscFree2(s->hang_master, s->hang_weight));
-  PetscCall(PetscFree(s->true_first));
-  PetscCall(PetscFree(s->true_node));
-  PetscCall(PetscFree(s->node_first));
-  PetscCall(PetscFree(s->node_facet));
-  PetscCall(PetscFree(s->rim));
-  PetscCall(PetscFree(s->met));
+  PetscCall(FreeAll(6, (void *[]){&s->true_first, &s->true_node, &s->node_first, &s->node_facet, &s->rim, &s->met}));
   PetscCall(PetscFree3(s->local, s->owned, s->dof));
   PetscCall(PetscFree4(s->X, s->x, s->mirror, s->frame));
   PetscCall(PetscFree2(s->du, s->force));

@@ -117,13 +117,12 @@ static PetscErrorCode Shares_Private(Interface p, const HPTables *v, const Fores
 PetscErrorCode SurfaceFields_Private(Interface p, Surface *s)
 {
   const PetscInt      dim = s->dim, room = dim + dim * dim + 1; /* of a node: position, frame, fixed bits */
-  const HPTables     *v;
+  const HPTables     *v = HPSpaceGetTables(p->space);
   const ForestTables *t = p->tables;
   PetscInt           *number;
   PetscReal          *buffer;
 
   PetscFunctionBegin;
-  PetscCall(HPSpaceGetTables(p->space, &v));
   PetscCall(PetscMalloc3(s->num_nodes, &s->local, s->num_nodes, &s->owned, dim * s->num_nodes, &s->dof));
   PetscCall(PetscCalloc4(dim * s->num_nodes, &s->X, dim * s->num_nodes, &s->x, 2 * dim * s->num_nodes, &s->mirror, dim * dim * s->num_nodes, &s->frame));
   PetscCall(PetscCalloc2(dim * s->num_nodes, &s->du, dim * s->num_nodes, &s->force));

@@ -40,11 +40,7 @@ PetscErrorCode ContactFacetHessian_Private(Interface p, const InterfaceSystem *a
   turned = dofs + n;
   FacetDofs_Private(c, e, dofs);
   num_turned = TurnedNodes_Private(c, e, turned);
-  if (n * n > p->hessian_size) {
-    p->hessian_size = 2 * n * n;
-    PetscCall(PetscFree(p->hessian));
-    PetscCall(PetscMalloc1(p->hessian_size, &p->hessian));
-  }
+  PetscCall(ArrayGrow(n * n, sizeof(PetscReal), &p->hessian_size, &p->hessian));
   H = p->hessian;
   for (PetscInt i = 0; i < n * n; ++i) H[i] = -e->hessian[i];
   if (a->lift) {

@@ -221,7 +221,7 @@ static PetscErrorCode Component_Private(Interface p, Contact *c, PetscInt k, con
   }
   PetscCall(LinkSpread_Private(p, &s->values, 1, t->weight + n * k));
   for (PetscInt j = 0; j < n; ++j) t->carries[n * k + j] = (PetscBool)(carries[j] && t->weight[n * k + j] > CONTACT_ROUND * c->w0[j]);
-  PetscCall(ContactPairGetDonors(c->pair, &first, &donor, &donor_weight));
+  ContactPairGetDonors(c->pair, &first, &donor, &donor_weight);
   if (!first) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscMalloc3(n + 1, &t->donor_first[k], first[n], &t->donor[k], first[n], &t->donor_weight[k]));
   PetscCall(PetscArraycpy(t->donor_first[k], first, n + 1));

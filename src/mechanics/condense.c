@@ -270,10 +270,9 @@ typedef PetscErrorCode (*CellFunction)(Mechanics, const CellGroup *, PetscInt ce
 
 static PetscErrorCode EachCell_Private(Mechanics m, CellFunction function, PetscReal x[])
 {
-  const HPTables *v;
+  const HPTables *v = HPSpaceGetTables(m->space);
 
   PetscFunctionBegin;
-  PetscCall(HPSpaceGetTables(m->space, &v));
   for (PetscInt ig = 0; ig < m->num_groups; ++ig) {
     const CellGroup *g = &m->groups[ig];
     for (PetscInt i = 0; i < g->num_cells && g->num_inner; ++i) {

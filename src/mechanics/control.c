@@ -153,10 +153,9 @@ PetscErrorCode MechanicsControlArea(Mechanics m, PetscInt k, PetscReal sum[2])
 
 PetscErrorCode MechanicsControlNodes(Mechanics m, PetscInt k, PetscBool mark[])
 {
-  const HPTables *v;
+  const HPTables *v = HPSpaceGetTables(m->space);
 
   PetscFunctionBegin;
-  PetscCall(HPSpaceGetTables(m->space, &v));
   for (PetscInt i = 0; i < m->num_facets; ++i) {
     const PetscInt cell = m->facets[i].cell;
     if (m->facets[i].boundary != m->control[k]) continue;

@@ -72,11 +72,9 @@ static PetscErrorCode Cell_Private(Mechanics m, PetscInt cell, const CellGroup *
 
 PetscErrorCode MechanicsFlowError(Mechanics m, const PetscReal u0[], const PetscReal u1[], PetscReal *energy)
 {
-  const HPTables *v;
-
   PetscFunctionBegin;
-  *energy = 0;
-  PetscCall(HPSpaceGetTables(m->space, &v));
+  *energy           = 0;
+  const HPTables *v = HPSpaceGetTables(m->space);
   for (PetscInt c = 0; c < v->num_owned_cells; ++c) {
     const CellGroup *g = m->cell_group[c] < 0 ? NULL : &m->groups[m->cell_group[c]];
     if (g && g->h) PetscCall(Cell_Private(m, c, g, u0, u1, energy));

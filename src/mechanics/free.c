@@ -118,15 +118,12 @@ static void Prescribed_Private(Mechanics m, const BodySpec *body, const PetscRea
 /* Gram matrices of the rigid motions that supports see, [bodies][36]; extents first. first: this is the first rank. */
 static PetscErrorCode Gram_Private(Mechanics m, const PetscInt root[], const PetscReal centre[3], PetscReal size, PetscBool first, PetscReal *gram)
 {
-  const HPTables     *v;
-  const ForestTables *t;
-  Forest              forest;
+  const HPTables     *v      = HPSpaceGetTables(m->space);
+  const Forest        forest = HPSpaceGetForest(m->space);
+  const ForestTables *t      = ForestGetTables(forest);
   PetscInt           *body;
 
   PetscFunctionBegin;
-  PetscCall(HPSpaceGetTables(m->space, &v));
-  PetscCall(HPSpaceGetForest(m->space, &forest));
-  PetscCall(ForestGetTables(forest, &t));
   PetscCall(PetscMalloc1(v->num_nodes, &body));
   for (PetscInt n = 0; n < v->num_nodes; ++n) body[n] = -1;
   for (PetscInt c = 0; c < v->num_owned_cells; ++c) {
@@ -190,20 +187,16 @@ PetscBool MechanicsIsHeld(Mechanics m, PetscInt body)
 
 PetscErrorCode MechanicsFreeBodies_Private(Mechanics m)
 {
-  const HPTables     *v;
-  const ForestTables *t;
-  const CoarseMesh   *mesh;
-  Forest              forest;
+  const HPTables     *v      = HPSpaceGetTables(m->space);
+  const Forest        forest = HPSpaceGetForest(m->space);
+  const ForestTables *t      = ForestGetTables(forest);
+  const CoarseMesh   *mesh   = ForestGetCoarse(forest);
   MPI_Comm            comm;
   PetscMPIInt         rank;
   PetscReal          *gram, *volume, lo[3], hi[3], centre[3], size = 0;
   PetscInt           *root, nb = m->spec->num_bodies, modes;
 
   PetscFunctionBegin;
-  PetscCall(HPSpaceGetTables(m->space, &v));
-  PetscCall(HPSpaceGetForest(m->space, &forest));
-  PetscCall(ForestGetTables(forest, &t));
-  PetscCall(ForestGetCoarse(forest, &mesh));
   comm = ForestComm(forest);
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
   ForestCoarseBox(mesh, lo, hi);

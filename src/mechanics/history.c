@@ -129,17 +129,14 @@ static PetscErrorCode Largest_Private(Mechanics m, const CellGroup *g, const Pet
 
 PetscErrorCode MechanicsPlastic(Mechanics m, const PetscReal u[], PetscReal *strain, PetscReal *work, PetscReal integral[][2])
 {
-  const HPTables     *v;
-  const ForestTables *t;
-  Forest              forest;
+  const HPTables     *v      = HPSpaceGetTables(m->space);
+  const Forest        forest = HPSpaceGetForest(m->space);
+  const ForestTables *t      = ForestGetTables(forest);
   PetscReal          *trial, *alpha;
   PetscInt            most = 0;
   PetscBool           bad;
 
   PetscFunctionBegin;
-  PetscCall(HPSpaceGetTables(m->space, &v));
-  PetscCall(HPSpaceGetForest(m->space, &forest));
-  PetscCall(ForestGetTables(forest, &t));
   PetscCall(PetscArrayzero(integral, m->spec->num_bodies));
   *strain = *work = 0;
   for (PetscInt i = 0; i < m->num_groups; ++i) most = PetscMax(most, m->groups[i].num_points);

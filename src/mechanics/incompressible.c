@@ -49,10 +49,9 @@ static PetscReal Extent_Private(PetscInt dim, PetscInt n, const PetscReal X[])
 
 PetscErrorCode MechanicsUnknownsCreate_Private(Mechanics m)
 {
-  const HPTables *v;
+  const HPTables *v = HPSpaceGetTables(m->space);
 
   PetscFunctionBegin;
-  PetscCall(HPSpaceGetTables(m->space, &v));
   PetscCall(PetscMalloc1(v->num_cells + 1, &m->unknown_first));
   m->unknown_first[0] = 0;
   for (PetscInt c = 0; c < v->num_cells; ++c) m->unknown_first[c + 1] = m->unknown_first[c] + CellUnknowns_Private(m, c);
@@ -99,10 +98,9 @@ void MechanicsUnknownsRows_Private(Mechanics m, const CellGroup *g, PetscInt i, 
 
 PetscErrorCode MechanicsNumUnknowns(Mechanics m, PetscInt *owned, PetscInt *all)
 {
-  const HPTables *v;
+  const HPTables *v = HPSpaceGetTables(m->space);
 
   PetscFunctionBegin;
-  PetscCall(HPSpaceGetTables(m->space, &v));
   *owned = m->unknown_first[v->num_owned_cells];
   *all   = m->unknown_first[v->num_cells];
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -147,10 +145,9 @@ PetscErrorCode MechanicsVolumeRows(Mechanics m, PetscReal rows[])
 static PetscErrorCode Rows_Private(Mechanics m, const CellGroup *g, PetscInt cell, const PetscReal b[], PetscReal local[], PetscInt *num, PetscInt dofs[],
                                    PetscReal B[])
 {
-  const HPTables *v;
+  const HPTables *v = HPSpaceGetTables(m->space);
 
   PetscFunctionBegin;
-  PetscCall(HPSpaceGetTables(m->space, &v));
   *num = 0;
   for (PetscInt k = v->cell_row[cell]; k < v->cell_row[cell + 1]; ++k)
     for (PetscInt d = 0; d < m->dim; ++d) dofs[(*num)++] = v->cell_master[k] * m->dim + d;
@@ -166,12 +163,11 @@ static PetscErrorCode Rows_Private(Mechanics m, const CellGroup *g, PetscInt cel
 
 PetscErrorCode MechanicsVolumeTangent(Mechanics m, VolumeSink sink, void *context)
 {
-  const HPTables *v;
+  const HPTables *v    = HPSpaceGetTables(m->space);
   PetscInt        most = 0, num, *dofs;
   PetscReal      *B, *local, hold[MOST_PRESSURES];
 
   PetscFunctionBegin;
-  PetscCall(HPSpaceGetTables(m->space, &v));
   for (PetscInt c = 0; c < v->num_owned_cells; ++c) {
     if (CellUnknowns_Private(m, c)) most = PetscMax(most, m->dim * (v->cell_row[c + 1] - v->cell_row[c]));
   }

@@ -45,11 +45,9 @@ static PetscReal Growth_Private(Mechanics m, const CellGroup *g, PetscReal stret
 
 PetscErrorCode MechanicsFindFolded(Mechanics m, const PetscReal u[], int8_t folded[])
 {
-  const HPTables *v;
-
   PetscFunctionBegin;
   if (m->spec->kinematics == KINEMATICS_SMALL) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(HPSpaceGetTables(m->space, &v));
+  const HPTables *v = HPSpaceGetTables(m->space);
   for (PetscInt g = 0; g < m->num_groups; ++g) {
     const CellGroup *group = &m->groups[g];
     const PetscInt   nd    = group->n * m->dim;
@@ -114,18 +112,16 @@ static PetscErrorCode GroupResidual_Private(Mechanics m, const CellGroup *g, con
 
 PetscErrorCode MechanicsResidual(Mechanics m, const PetscReal u[], const PetscReal pressure[], PetscReal r[], MechanicsStatus *status)
 {
-  const HPTables *v;
-
   PetscFunctionBegin;
-  status->energy  = 0;
-  status->scale2  = 0;
-  status->noise2  = 0;
-  status->drift2  = 0;
-  status->largest = 0;
-  status->volume  = 0;
-  status->min_det = PETSC_MAX_REAL;
-  status->bad     = PETSC_FALSE;
-  PetscCall(HPSpaceGetTables(m->space, &v));
+  status->energy    = 0;
+  status->scale2    = 0;
+  status->noise2    = 0;
+  status->drift2    = 0;
+  status->largest   = 0;
+  status->volume    = 0;
+  status->min_det   = PETSC_MAX_REAL;
+  status->bad       = PETSC_FALSE;
+  const HPTables *v = HPSpaceGetTables(m->space);
   for (PetscInt i = 0; i < v->num_nodes * m->dim; ++i) status->largest = PetscMax(status->largest, PetscAbsReal(u[i]));
   for (PetscInt g = 0; g < m->num_groups; ++g) PetscCall(GroupResidual_Private(m, &m->groups[g], u, pressure, r, status));
   if (m->dead) {
@@ -179,10 +175,9 @@ static PetscErrorCode SendMatrix_Private(Mechanics m, CellGroup *g, PetscInt i, 
 /* Most masters of any owned cell. */
 static PetscErrorCode MostMasters_Private(Mechanics m, PetscInt *most)
 {
-  const HPTables *v;
+  const HPTables *v = HPSpaceGetTables(m->space);
 
   PetscFunctionBegin;
-  PetscCall(HPSpaceGetTables(m->space, &v));
   *most = 1;
   for (PetscInt c = 0; c < v->num_cells; ++c) *most = PetscMax(*most, v->cell_row[c + 1] - v->cell_row[c]);
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -261,17 +256,14 @@ PetscErrorCode MechanicsUpdatePressure(Mechanics m, const PetscReal du[], PetscR
 PetscErrorCode MechanicsPoints(Mechanics m, PetscInt cell, PetscInt np, const PetscReal xi[], const PetscReal u[], const PointValues *points)
 {
   const CellGroup    *g;
-  const HPTables     *v;
-  const ForestTables *t;
-  Forest              forest;
+  const HPTables     *v        = HPSpaceGetTables(m->space);
+  const Forest        forest   = HPSpaceGetForest(m->space);
+  const ForestTables *t        = ForestGetTables(forest);
   const PetscReal    *pressure = NULL;
   PetscReal          *X, *values, consistent[MOST_PRESSURES];
   PetscBool           bad;
 
   PetscFunctionBegin;
-  PetscCall(HPSpaceGetTables(m->space, &v));
-  PetscCall(HPSpaceGetForest(m->space, &forest));
-  PetscCall(ForestGetTables(forest, &t));
   PetscCheck(m->cell_group[cell] >= 0, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONG, "cell %" PetscInt_FMT " is rigid: it has no stress", cell);
   g      = &m->groups[m->cell_group[cell]];
   X      = m->work;

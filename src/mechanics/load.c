@@ -21,14 +21,11 @@ static PetscInt SideIndex_Private(PetscInt dim, PetscInt side)
 
 PetscErrorCode MechanicsLoadFacets_Private(Mechanics m)
 {
-  const HPTables     *v;
-  const ForestTables *t;
-  Forest              forest;
+  const HPTables     *v      = HPSpaceGetTables(m->space);
+  const Forest        forest = HPSpaceGetForest(m->space);
+  const ForestTables *t      = ForestGetTables(forest);
 
   PetscFunctionBegin;
-  PetscCall(HPSpaceGetTables(m->space, &v));
-  PetscCall(HPSpaceGetForest(m->space, &forest));
-  PetscCall(ForestGetTables(forest, &t));
   for (PetscInt pass = 0; pass < 2; ++pass) {
     m->num_facets = 0;
     for (PetscInt c = 0; c < v->num_owned_cells; ++c) {
@@ -131,14 +128,11 @@ static PetscErrorCode CellForce_Private(Mechanics m, const CellGroup *g, const B
 
 static PetscErrorCode BodyForces_Private(Mechanics m, PetscReal *work)
 {
-  const HPTables     *v;
-  const ForestTables *t;
-  Forest              forest;
+  const HPTables     *v      = HPSpaceGetTables(m->space);
+  const Forest        forest = HPSpaceGetForest(m->space);
+  const ForestTables *t      = ForestGetTables(forest);
 
   PetscFunctionBegin;
-  PetscCall(HPSpaceGetTables(m->space, &v));
-  PetscCall(HPSpaceGetForest(m->space, &forest));
-  PetscCall(ForestGetTables(forest, &t));
   for (PetscInt c = 0; c < v->num_owned_cells; ++c) {
     const BodySpec *body = &m->spec->bodies[t->leaf_body[v->cell_leaf[c]]];
     if (m->cell_group[c] < 0 || !(body->force[0] || body->force[1] || body->force[2])) continue;
@@ -165,12 +159,11 @@ static PetscBool AnyDeadLoad_Private(Mechanics m)
 
 PetscErrorCode MechanicsDeadLoads_Private(Mechanics m)
 {
-  const HPTables *v;
-  PetscReal      *work;
+  PetscReal *work;
 
   PetscFunctionBegin;
   if (!AnyDeadLoad_Private(m)) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(HPSpaceGetTables(m->space, &v));
+  const HPTables *v = HPSpaceGetTables(m->space);
   if (!m->dead) PetscCall(PetscMalloc1(v->num_nodes * m->dim, &m->dead));
   PetscCall(PetscArrayzero(m->dead, v->num_nodes * m->dim));
   PetscCall(PetscMalloc1(3 * (MORTISE_MAX_ORDER + 1) * MOST_FACET_NODES, &work));
@@ -185,11 +178,9 @@ PetscErrorCode MechanicsDeadLoads_Private(Mechanics m)
 
 PetscErrorCode MechanicsDeadWork(Mechanics m, const PetscReal u[], PetscReal *work)
 {
-  const HPTables *v;
-
   PetscFunctionBegin;
-  *work = 0;
-  PetscCall(HPSpaceGetTables(m->space, &v));
+  *work             = 0;
+  const HPTables *v = HPSpaceGetTables(m->space);
   for (PetscInt i = 0; i < v->num_nodes * m->dim && m->dead; ++i) *work -= m->dead[i] * u[i];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -225,10 +216,9 @@ static PetscErrorCode FacetFollower_Private(Mechanics m, const LoadFacet *f, con
 
 PetscErrorCode MechanicsFollowers_Private(Mechanics m, const PetscReal u[], PetscReal r[], MatrixSink sink, void *context)
 {
-  const HPTables *v;
+  const HPTables *v = HPSpaceGetTables(m->space);
 
   PetscFunctionBegin;
-  PetscCall(HPSpaceGetTables(m->space, &v));
   for (PetscInt i = 0; i < m->num_facets; ++i) {
     const LoadFacet *f = &m->facets[i];
     if (!BoundaryHasPressure(&m->spec->boundaries[f->boundary])) continue;
@@ -252,11 +242,10 @@ PetscErrorCode MechanicsFollowers_Private(Mechanics m, const PetscReal u[], Pets
 PetscErrorCode MechanicsLoadRate(Mechanics m, const PetscReal u[], PetscReal dt, PetscReal rate[])
 {
   const PetscReal t = m->t;
-  const HPTables *v;
+  const HPTables *v = HPSpaceGetTables(m->space);
   PetscReal      *r;
 
   PetscFunctionBegin;
-  PetscCall(HPSpaceGetTables(m->space, &v));
   PetscCall(PetscMalloc1(v->num_nodes * m->dim, &r));
   for (PetscInt side = -1; side <= 1; side += 2) {
     PetscCall(MechanicsSetTime(m, t + side * dt));

@@ -101,21 +101,18 @@ static void Noise_Private(Mechanics m)
 
 PetscErrorCode MechanicsCreate(HPSpace space, const MechanicsSpec *spec, const Supports *supports, Mechanics *mechanics)
 {
-  const HPTables     *v;
-  const ForestTables *t;
-  Forest              forest;
-  Mechanics           m;
+  Mechanics m;
 
   PetscFunctionBegin;
   PetscCall(PetscNew(&m));
-  m->space     = space;
-  m->spec      = spec;
-  m->supports  = supports;
-  m->free_part = 1;
-  PetscCall(HPSpaceGetTables(space, &v));
-  PetscCall(HPSpaceGetForest(space, &forest));
-  PetscCall(ForestGetTables(forest, &t));
-  m->dim = v->dim;
+  m->space                   = space;
+  m->spec                    = spec;
+  m->supports                = supports;
+  m->free_part               = 1;
+  const HPTables     *v      = HPSpaceGetTables(space);
+  const Forest        forest = HPSpaceGetForest(space);
+  const ForestTables *t      = ForestGetTables(forest);
+  m->dim                     = v->dim;
   PetscCall(Groups_Private(m, v, t));
   PetscCall(FillGroups_Private(m, v, t));
   Noise_Private(m);
@@ -163,11 +160,10 @@ PetscErrorCode MechanicsDestroy(Mechanics *mechanics)
 
 PetscErrorCode MechanicsFindInverted(Mechanics m, PetscInt *order, PetscReal X[3], PetscInt *leaf)
 {
-  const HPTables *v;
+  const HPTables *v    = HPSpaceGetTables(m->space);
   PetscInt        cell = -1;
 
   PetscFunctionBegin;
-  PetscCall(HPSpaceGetTables(m->space, &v));
   *order = 0;
   *leaf  = -1;
   X[0] = X[1] = X[2] = 0;

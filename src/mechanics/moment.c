@@ -53,11 +53,10 @@ static PetscErrorCode Points_Private(Mechanics m, PetscReal (*point)[3])
 
 PetscErrorCode MechanicsMoments(Mechanics m, const PetscReal r[], const PetscReal u[], PetscReal support[][3], Resultant body[])
 {
-  const HPTables *v;
+  const HPTables *v = HPSpaceGetTables(m->space);
   PetscReal(*point)[3];
 
   PetscFunctionBegin;
-  PetscCall(HPSpaceGetTables(m->space, &v));
   PetscCall(PetscMalloc1(m->spec->num_bodies, &point));
   PetscCall(Points_Private(m, point));
   for (PetscInt b = 0; b < m->spec->num_boundaries; ++b) support[b][0] = support[b][1] = support[b][2] = 0;

@@ -45,16 +45,13 @@ static PetscErrorCode OwnerPlaces_Private(const HPTables *v, const ForestTables 
 
 PetscErrorCode CellNumbersCreate_Private(Mechanics m, const PetscInt size[], CellNumbers *n)
 {
-  const HPTables     *v;
-  const ForestTables *t;
-  Forest              forest;
-  PetscInt            num = 0, total, *owner, *here;
+  const HPTables     *v      = HPSpaceGetTables(m->space);
+  const Forest        forest = HPSpaceGetForest(m->space);
+  const ForestTables *t      = ForestGetTables(forest);
+  PetscInt            num    = 0, total, *owner, *here;
   PetscSFNode        *remote;
 
   PetscFunctionBegin;
-  PetscCall(HPSpaceGetTables(m->space, &v));
-  PetscCall(HPSpaceGetForest(m->space, &forest));
-  PetscCall(ForestGetTables(forest, &t));
   PetscCall(PetscMalloc1(v->num_cells, &n->place));
   total = Layout_Private(m, v, size, n);
   PetscCall(PetscCalloc1(total, &n->values));

@@ -169,14 +169,11 @@ static PetscErrorCode FrameValues_Private(Mechanics m, const HPTables *v, const 
 
 PetscErrorCode MechanicsPrescribe(Mechanics m, PetscReal local[])
 {
-  const HPTables     *v;
-  const ForestTables *t;
-  Forest              forest;
+  const HPTables     *v      = HPSpaceGetTables(m->space);
+  const Forest        forest = HPSpaceGetForest(m->space);
+  const ForestTables *t      = ForestGetTables(forest);
 
   PetscFunctionBegin;
-  PetscCall(HPSpaceGetTables(m->space, &v));
-  PetscCall(HPSpaceGetForest(m->space, &forest));
-  PetscCall(ForestGetTables(forest, &t));
   for (PetscInt n = 0; n < v->num_nodes; ++n) {
     const PetscReal *frame;
     if (!m->supports->fixed[n]) continue;
@@ -229,18 +226,14 @@ static void Sentence_Private(const MechanicsSpec *spec, const NodeSupport *s, co
 
 PetscErrorCode MechanicsFindConflict(Mechanics m, PetscReal time, size_t size, char words[])
 {
-  const HPTables     *v;
-  const ForestTables *t;
-  const CoarseMesh   *mesh;
-  Forest              forest;
-  PetscReal           lo[3], hi[3], extent = 0;
+  PetscReal lo[3], hi[3], extent = 0;
 
   PetscFunctionBegin;
-  words[0] = 0;
-  PetscCall(HPSpaceGetTables(m->space, &v));
-  PetscCall(HPSpaceGetForest(m->space, &forest));
-  PetscCall(ForestGetTables(forest, &t));
-  PetscCall(ForestGetCoarse(forest, &mesh));
+  words[0]                   = 0;
+  const HPTables     *v      = HPSpaceGetTables(m->space);
+  const Forest        forest = HPSpaceGetForest(m->space);
+  const ForestTables *t      = ForestGetTables(forest);
+  const CoarseMesh   *mesh   = ForestGetCoarse(forest);
   ForestCoarseBox(mesh, lo, hi);
   for (PetscInt c = 0; c < m->dim; ++c) extent = PetscMax(extent, hi[c] - lo[c]);
   for (PetscInt n = 0; n < v->num_nodes && !words[0]; ++n) {

@@ -39,13 +39,11 @@ static PetscErrorCode FacetNormal_Private(Forest forest, const ForestTables *t, 
 /* The normal of a flat boundary group; an input error when it is not flat. Replicated: every rank sees all facets. */
 static PetscErrorCode GroupNormal_Private(HPSpace space, const BoundarySpec *b, PetscReal normal[3])
 {
-  Forest              forest;
-  const ForestTables *t;
-  PetscBool           found = PETSC_FALSE;
+  const Forest        forest = HPSpaceGetForest(space);
+  const ForestTables *t      = ForestGetTables(forest);
+  PetscBool           found  = PETSC_FALSE;
 
   PetscFunctionBegin;
-  PetscCall(HPSpaceGetForest(space, &forest));
-  PetscCall(ForestGetTables(forest, &t));
   for (PetscInt f = t->first[t->dim - 1]; f < t->first[t->dim]; ++f) {
     const PetscInt *leaf = t->facet_leaf + 2 * (f - t->first[t->dim - 1]);
     PetscReal       n[3];
@@ -116,14 +114,11 @@ static PetscErrorCode RigidNodes_Private(const HPTables *v, const ForestTables *
 
 PetscErrorCode MechanicsSupportsCreate(HPSpace space, const MechanicsSpec *spec, Supports *out)
 {
-  const HPTables     *v;
-  const ForestTables *t;
-  Forest              forest;
+  const HPTables     *v      = HPSpaceGetTables(space);
+  const Forest        forest = HPSpaceGetForest(space);
+  const ForestTables *t      = ForestGetTables(forest);
 
   PetscFunctionBegin;
-  PetscCall(HPSpaceGetTables(space, &v));
-  PetscCall(HPSpaceGetForest(space, &forest));
-  PetscCall(ForestGetTables(forest, &t));
   PetscCall(PetscMemzero(out, sizeof(*out)));
   PetscCall(PetscCalloc1(v->num_nodes, &out->fixed));
   PetscCall(PetscMalloc1(3 * v->num_nodes, &out->cause));
@@ -154,10 +149,9 @@ PetscErrorCode MechanicsSupportsDestroy(Supports *s)
 
 PetscErrorCode MechanicsReactions(Mechanics m, const PetscReal r[], PetscReal reaction[][3])
 {
-  const HPTables *v;
+  const HPTables *v = HPSpaceGetTables(m->space);
 
   PetscFunctionBegin;
-  PetscCall(HPSpaceGetTables(m->space, &v));
   for (PetscInt b = 0; b < m->spec->num_boundaries; ++b) reaction[b][0] = reaction[b][1] = reaction[b][2] = 0;
   for (PetscInt n = 0; n < v->num_nodes; ++n) {
     const PetscReal *frame;

@@ -129,14 +129,11 @@ static PetscErrorCode Cell_Private(Mechanics m, PetscInt cell, PetscInt root, Pe
 
 PetscErrorCode MechanicsTerms(Mechanics m, const PetscReal u[], BodyTerms terms[])
 {
-  const HPTables     *v;
-  const ForestTables *t;
-  Forest              forest;
+  const HPTables     *v      = HPSpaceGetTables(m->space);
+  const Forest        forest = HPSpaceGetForest(m->space);
+  const ForestTables *t      = ForestGetTables(forest);
 
   PetscFunctionBegin;
-  PetscCall(HPSpaceGetTables(m->space, &v));
-  PetscCall(HPSpaceGetForest(m->space, &forest));
-  PetscCall(ForestGetTables(forest, &t));
   PetscCall(PetscArrayzero(terms, m->spec->num_bodies));
   for (PetscInt i = 0; i < m->num_groups; ++i) {
     const CellGroup *g = &m->groups[i];
@@ -150,11 +147,10 @@ PetscErrorCode MechanicsTerms(Mechanics m, const PetscReal u[], BodyTerms terms[
 
 PetscErrorCode MechanicsFollowerTurn(Mechanics m, const PetscReal u[], PetscReal *work)
 {
-  const HPTables *v;
+  const HPTables *v = HPSpaceGetTables(m->space);
   PetscReal      *rest, *there, *here;
 
   PetscFunctionBegin;
-  PetscCall(HPSpaceGetTables(m->space, &v));
   const PetscInt n = v->num_nodes * m->dim;
   PetscCall(PetscCalloc3(n, &rest, n, &there, n, &here));
   PetscCall(MechanicsFollowers_Private(m, rest, there, NULL, NULL));

@@ -8,13 +8,12 @@
 
 PetscErrorCode MechanicsSetViscosity(Mechanics m, PetscReal rate, const PetscReal from[])
 {
-  const HPTables *v;
-  PetscInt        most = 0;
+  PetscInt most = 0;
 
   PetscFunctionBegin;
   m->viscosity = rate;
   if (rate == 0) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(HPSpaceGetTables(m->space, &v));
+  const HPTables *v = HPSpaceGetTables(m->space);
   for (PetscInt g = 0; g < m->num_groups; ++g) most = PetscMax(most, m->groups[g].n * m->dim);
   if (!m->viscous_from) PetscCall(PetscMalloc2(v->num_nodes * m->dim, &m->viscous_from, 2 * most, &m->viscous_room));
   PetscCall(PetscArraycpy(m->viscous_from, from, v->num_nodes * m->dim));

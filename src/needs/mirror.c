@@ -12,10 +12,9 @@ typedef struct {
 /* All cells, and all facets of a boundary group. */
 static PetscErrorCode Places_Private(Forest forest, Mirror *m)
 {
-  const ForestTables *t;
+  const ForestTables *t = ForestGetTables(forest);
 
   PetscFunctionBegin;
-  PetscCall(ForestGetTables(forest, &t));
   const PetscInt facets = t->first[t->dim] - t->first[t->dim - 1];
   PetscCall(PetscMalloc2(t->num_leaves + facets, &m->place, t->num_leaves + facets, &m->image));
   m->num = 0;
@@ -143,11 +142,10 @@ static PetscErrorCode Bodies_Private(const Mirror *m, const SceneData *data, Pet
 
 PetscErrorCode NeedsFindMirrors(const SceneData *data, Forest forest, PetscBool mirror[3], PetscReal at[3])
 {
-  const CoarseMesh *mesh;
+  const CoarseMesh *mesh = ForestGetCoarse(forest);
   PetscReal         lo[3], hi[3];
 
   PetscFunctionBegin;
-  PetscCall(ForestGetCoarse(forest, &mesh));
   const PetscReal size = NeedsSize(mesh, lo, hi);
   for (PetscInt axis = 0; axis < 3; ++axis) {
     Mirror m = {.axis = axis, .at = 0.5 * (lo[axis] + hi[axis]), .size = size};

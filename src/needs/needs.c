@@ -108,17 +108,15 @@ static PetscReal Saves_Private(const Context *c, const MaterialSpec *m, const Pe
    twice the share of the nodes on them. */
 static PetscErrorCode OfPair_Private(const Context *c, PetscInt pair, PetscReal *contact, PetscReal *matrix)
 {
-  const ContactView *v;
-  const HPTables    *tables;
   Interface          interface = ProblemInterface(c->run->level->problem);
+  const ContactView *v         = InterfaceGetContact(interface, pair);
   PetscReal          seconds, all;
   PetscBool          room;
 
   PetscFunctionBegin;
-  PetscCall(InterfaceGetContact(interface, pair, &v));
-  PetscCall(InterfaceCost(interface, pair, &seconds, &all, &room));
-  PetscCall(HPSpaceGetTables(ProblemSpace(c->run->level->problem), &tables));
-  PetscReal sum[] = {(PetscReal)(v->nonmortar.num_nodes + v->mortar.num_nodes), (PetscReal)tables->num_nodes, seconds, all, room};
+  InterfaceCost(interface, pair, &seconds, &all, &room);
+  const HPTables *tables = HPSpaceGetTables(ProblemSpace(c->run->level->problem));
+  PetscReal       sum[]  = {(PetscReal)(v->nonmortar.num_nodes + v->mortar.num_nodes), (PetscReal)tables->num_nodes, seconds, all, room};
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 5, MPIU_REAL, MPI_SUM, c->run->comm));
   *matrix  = sum[4] > 0 ? 2 * sum[0] / sum[1] : 0;
   *contact = sum[3] > 0 ? sum[2] / sum[3] : 0;
@@ -164,14 +162,11 @@ static PetscBool Elastic(const Context *c, PetscInt body)
 }
 
 /* Half of the factorisations' time, where nothing but this material makes the matrix unsymmetric. */
-static PetscErrorCode Symmetric_Private(const Context *c, const MaterialSpec *material, PetscReal *saves)
+static PetscReal Symmetric_Private(const Context *c, const MaterialSpec *material)
 {
-  PetscBool possible;
+  const PetscBool possible = ProblemIsSymmetricBut(c->run->level->problem, material);
 
-  PetscFunctionBegin;
-  PetscCall(ProblemIsSymmetricBut(c->run->level->problem, material, &possible));
-  *saves = possible && material->law->unsymmetric ? 0.5 * StageSeconds(STAGE_FACTOR) / c->total : 0;
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return possible && material->law->unsymmetric ? 0.5 * StageSeconds(STAGE_FACTOR) / c->total : 0;
 }
 
 static PetscErrorCode Flow_Private(Context *c)
@@ -182,9 +177,8 @@ static PetscErrorCode Flow_Private(Context *c)
   PetscFunctionBegin;
   for (PetscInt i = 0; i < data->num_materials; ++i) {
     const MaterialSpec *m = &data->materials[i];
-    PetscReal           symmetric;
     if (!All_Private(c, i, Elastic)) continue;
-    PetscCall(Symmetric_Private(c, m, &symmetric));
+    const PetscReal symmetric = Symmetric_Private(c, m);
     PetscCall(Row_Private(c, "flow", m->name, 0, Saves_Private(c, m, OfFlow) + symmetric,
                           "its material has not flowed: neo_hookean with the same moduli and volumetric gives the same", &row));
     Elastic_Private(row, m, "neo_hookean");
@@ -530,11 +524,9 @@ static PetscErrorCode Cells_Private(Context *c)
 /* Is the body in a contact pair? There orders per direction cost contact faces their curves. */
 static PetscErrorCode InPair_Private(const Context *c, PetscInt body, PetscBool *yes)
 {
-  const ForestTables *t;
-
   PetscFunctionBegin;
-  *yes = PETSC_FALSE;
-  PetscCall(ForestGetTables(c->run->level->forest, &t));
+  *yes                  = PETSC_FALSE;
+  const ForestTables *t = ForestGetTables(c->run->level->forest);
   for (PetscInt i = 0; i < c->run->data->num_contacts; ++i) {
     const uint64_t sides = UINT64_C(1) << c->run->data->contacts[i].nonmortar | UINT64_C(1) << c->run->data->contacts[i].mortar;
     for (PetscInt leaf = 0; leaf < t->num_leaves; ++leaf)
@@ -631,16 +623,14 @@ static PetscBool Asked_Private(const NeedsRun *run)
 
 static PetscErrorCode Terms_Private(Context *c)
 {
-  Level              *l   = c->run->level;
-  const PetscInt      num = c->run->data->mechanics.num_bodies;
-  const HPTables     *v;
-  const ForestTables *t;
+  Level              *l         = c->run->level;
+  const PetscInt      num       = c->run->data->mechanics.num_bodies;
+  const HPTables     *v         = HPSpaceGetTables(ProblemSpace(l->problem));
+  const ForestTables *t         = ForestGetTables(l->forest);
   Mechanics           mechanics = ProblemMechanics(l->problem);
   PetscReal          *u;
 
   PetscFunctionBegin;
-  PetscCall(HPSpaceGetTables(ProblemSpace(l->problem), &v));
-  PetscCall(ForestGetTables(l->forest, &t));
   PetscCall(PetscCalloc2(num, &c->terms, num, &c->cells));
   for (PetscInt i = 0; i < t->num_leaves; ++i) ++c->cells[t->leaf_body[i]];
   if (!Asked_Private(c->run)) PetscFunctionReturn(PETSC_SUCCESS);

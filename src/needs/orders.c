@@ -109,15 +109,13 @@ PetscErrorCode NeedsLostByOrder(const NeedsRun *run, PetscInt body, PetscInt dir
   const MechanicsSpec *m   = &run->data->mechanics;
   const PetscReal      mu  = m->bodies[body].material->mu;
   const PetscInt       dim = m->model == MODEL_3D ? 3 : 2, most = ElementNumNodes(dim, MORTISE_MAX_ORDER) * dim;
-  const HPTables      *v;
-  const ForestTables  *t;
   HPSpace              space = ProblemSpace(run->level->problem);
   PetscReal           *local, *X, *u, *kept, R[MOST_1D * MOST_1D];
 
   PetscFunctionBegin;
-  *energy = 0;
-  PetscCall(ForestGetTables(run->level->forest, &t));
-  PetscCall(HPSpaceGetTables(space, &v));
+  *energy               = 0;
+  const ForestTables *t = ForestGetTables(run->level->forest);
+  const HPTables     *v = HPSpaceGetTables(space);
   PetscCall(PetscMalloc4(v->num_nodes * v->dim, &local, most, &X, most, &u, most, &kept));
   PetscCall(ProblemLocalDisplacement(run->level->problem, run->level->accepted.x, local));
   for (PetscInt c = 0; c < v->num_owned_cells; ++c) {

@@ -39,16 +39,14 @@ PetscBool PlaceIs(const Place *p, const Place *q, PetscInt axis, PetscReal at, i
 
 PetscErrorCode NeedsCorners(const NeedsRun *run, PetscInt axis, const PetscReal *at, PetscInt *num, Place **corner, PetscReal *largest)
 {
-  const HPTables     *v;
-  const ForestTables *t;
+  const ForestTables *t     = ForestGetTables(run->level->forest);
   HPSpace             space = ProblemSpace(run->level->problem);
+  const HPTables     *v     = HPSpaceGetTables(space);
   PetscReal          *local, *X, *u;
   PetscInt            most = 1, num_mine = 0;
   Place              *mine;
 
   PetscFunctionBegin;
-  PetscCall(ForestGetTables(run->level->forest, &t));
-  PetscCall(HPSpaceGetTables(space, &v));
   for (PetscInt c = 0; c < v->num_owned_cells; ++c) most = PetscMax(most, v->cell_order[c]);
   most = ElementNumNodes(v->dim, most) * v->dim;
   PetscCall(PetscMalloc3(v->num_nodes * v->dim, &local, most, &X, most, &u));

@@ -104,16 +104,15 @@ static void Turn_Private(PetscInt axis, PetscReal size, PetscInt num, Place corn
 
 PetscErrorCode NeedsFindPrism(const NeedsRun *run, PetscInt axis, PetscBool around, PetscReal strain, PetscInt *layers, PetscReal *change)
 {
-  const PetscInt    along = around ? TURN : axis;
-  const PetscReal   plane = 0;
-  const CoarseMesh *m;
-  PetscReal         lo[3], hi[3], length, most = 0, largest; /* along the axis, or difference of two corners over each other; of all displacements */
-  PetscInt          num;
-  Place            *corner;
+  const PetscInt  along = around ? TURN : axis;
+  const PetscReal plane = 0;
+  PetscReal       lo[3], hi[3], length, most = 0, largest; /* along the axis, or difference of two corners over each other; of all displacements */
+  PetscInt        num;
+  Place          *corner;
 
   PetscFunctionBegin;
-  *layers = 0;
-  PetscCall(ForestGetCoarse(run->level->forest, &m));
+  *layers             = 0;
+  const CoarseMesh *m = ForestGetCoarse(run->level->forest);
   if (m->dim < 3) PetscFunctionReturn(PETSC_SUCCESS);
   const PetscReal size = NeedsSize(m, lo, hi);
   PetscCall(Stacks_Private(m, axis, around, size, layers, &length));

@@ -48,7 +48,7 @@ PetscErrorCode NeedsContactTurn(const NeedsRun *run, PetscInt pair, PetscReal *t
 
   PetscFunctionBegin;
   *turn = 0;
-  PetscCall(InterfaceGetContact(ProblemInterface(run->level->problem), pair, &v));
+  v     = InterfaceGetContact(ProblemInterface(run->level->problem), pair);
   Side_Private(&v->nonmortar, sum[0]);
   Side_Private(&v->mortar, sum[1]);
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 22, MPIU_REAL, MPI_SUM, run->comm));
@@ -102,12 +102,11 @@ PetscErrorCode NeedsRigidMotion(const NeedsRun *run, PetscInt body, cJSON **moti
   const PetscInt       dim      = m->model == MODEL_3D ? 3 : 2;
   const BodySpec      *spec     = &m->bodies[body];
   const char          *value[3] = {NULL, NULL, NULL};
-  const ForestTables  *t;
 
   PetscFunctionBegin;
-  *motion = cJSON_CreateObject();
-  *held   = (PetscBool)(!spec->force[0] && !spec->force[1] && !spec->force[2]);
-  PetscCall(ForestGetTables(run->level->forest, &t));
+  *motion               = cJSON_CreateObject();
+  *held                 = (PetscBool)(!spec->force[0] && !spec->force[1] && !spec->force[2]);
+  const ForestTables *t = ForestGetTables(run->level->forest);
   if (FacesRigid_Private(run, t, body)) *held = PETSC_FALSE;
   if (m->model == MODEL_AXISYMMETRIC) value[0] = "0";
   for (PetscInt i = 0; i < m->num_boundaries && *held; ++i) {
@@ -133,12 +132,11 @@ PetscErrorCode NeedsRigidMotion(const NeedsRun *run, PetscInt body, cJSON **moti
 /* Middle of the box around a body's facets of a group; any: it has some. Every rank knows all facets. */
 static PetscErrorCode Facets_Private(const NeedsRun *run, PetscInt body, PetscInt group, PetscReal at[3], PetscBool *any)
 {
-  const ForestTables *t;
-  PetscReal           box[6]; /* largest of X, of -X */
+  PetscReal box[6]; /* largest of X, of -X */
 
   PetscFunctionBegin;
   for (PetscInt k = 0; k < 6; ++k) box[k] = -PETSC_MAX_REAL;
-  PetscCall(ForestGetTables(run->level->forest, &t));
+  const ForestTables *t = ForestGetTables(run->level->forest);
   for (PetscInt e = t->first[t->dim - 1]; e < t->first[t->dim]; ++e) {
     PetscReal X[3];
     if (!(t->boundary[e] >> group & 1) || t->leaf_body[t->entity_leaf[e]] != body) continue;
@@ -175,7 +173,7 @@ static PetscErrorCode Holds_Private(const NeedsRun *run, PetscInt body, PetscInt
     PetscReal          sum[11] = {0};
     Hold              *p       = &place[*num];
     PetscBool          any;
-    PetscCall(InterfaceGetContact(ProblemInterface(run->level->problem), i / 2, &v));
+    v = InterfaceGetContact(ProblemInterface(run->level->problem), i / 2);
     Side_Private(i % 2 ? &v->mortar : &v->nonmortar, sum);
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 11, MPIU_REAL, MPI_SUM, run->comm));
     PetscCall(Facets_Private(run, body, i % 2 ? data->contacts[i / 2].mortar : data->contacts[i / 2].nonmortar, p->at, &any));
@@ -211,14 +209,13 @@ PetscErrorCode NeedsStretch(const NeedsRun *run, PetscInt body, PetscReal *strai
 
 PetscErrorCode NeedsAsymmetry(const NeedsRun *run, PetscInt axis, PetscReal *off)
 {
-  const PetscReal   at = run->mirror_at[axis];
-  const CoarseMesh *mesh;
+  const PetscReal   at   = run->mirror_at[axis];
+  const CoarseMesh *mesh = ForestGetCoarse(run->level->forest);
   PetscReal         lo[3], hi[3], most = 0, largest;
   PetscInt          num;
   Place            *corner;
 
   PetscFunctionBegin;
-  PetscCall(ForestGetCoarse(run->level->forest, &mesh));
   const PetscReal size = NeedsSize(mesh, lo, hi);
   PetscCall(NeedsCorners(run, axis, &at, &num, &corner, &largest));
   for (PetscInt i = 0, first = 0; i < num; ++i) {

@@ -14,10 +14,9 @@ static PetscErrorCode Number_Private(Checkpoint c, const char *name, PetscReal v
 
 static PetscErrorCode CopyForest_Private(Checkpoint c, Forest forest, const State *state)
 {
-  const ForestTables *t;
+  const ForestTables *t = ForestGetTables(forest);
 
   PetscFunctionBegin;
-  PetscCall(ForestGetTables(forest, &t));
   PetscCall(ForestCoarseHash(forest, &c->mesh));
   PetscCall(ForestGetSplits(forest, &c->num_splits, &c->split));
   c->revision   = t->revision;
@@ -32,16 +31,14 @@ static PetscErrorCode CopyForest_Private(Checkpoint c, Forest forest, const Stat
 
 PetscErrorCode CheckpointCreate(Problem problem, const State *state, PetscInt num, const CheckpointNumber numbers[], const char *note, Checkpoint *checkpoint)
 {
-  const SceneData  *scene;
-  const CoarseMesh *mesh;
-  Forest            forest = ProblemForest(problem);
-  Checkpoint        c;
-  OutputText        text = {0};
+  Forest     forest = ProblemForest(problem);
+  Checkpoint c;
+  OutputText text = {0};
 
   PetscFunctionBegin;
   PetscCall(PetscNew(&c));
-  PetscCall(ProblemGetScene(problem, &scene));
-  PetscCall(ForestGetCoarse(forest, &mesh));
+  const SceneData  *scene = ProblemGetScene(problem);
+  const CoarseMesh *mesh  = ForestGetCoarse(forest);
   PetscCall(PetscCommDuplicate(ForestComm(forest), &c->comm, NULL));
   PetscCall(OutputPhysics(scene, mesh, &text));
   c->physics = text.text;
@@ -126,7 +123,7 @@ PetscErrorCode CheckpointCheck(Checkpoint c, const SceneData *scene, Forest coar
   PetscFunctionBegin;
   PetscCall(ForestCoarseHash(coarse, &hash));
   PetscCheckInput(hash == c->mesh, "-restart %s: it was written on another mesh than %s is meshed with now", c->path, scene->file);
-  PetscCall(ForestGetCoarse(coarse, &mesh));
+  mesh = ForestGetCoarse(coarse);
   PetscCall(OutputPhysics(scene, mesh, &text));
   PetscCheckInput(!OutputFirstDifference(c->physics, text.text, what), "-restart %s: it was written with '%s', the scene has '%s'", c->path, what[0], what[1]);
   PetscCall(OutputTextDestroy(&text));
@@ -135,12 +132,11 @@ PetscErrorCode CheckpointCheck(Checkpoint c, const SceneData *scene, Forest coar
 
 PetscErrorCode CheckpointForest(Checkpoint c, Forest coarse, Forest *forest)
 {
-  const CoarseMesh *mesh;
+  const CoarseMesh *mesh = ForestGetCoarse(coarse);
   PetscMPIInt       ranks;
   PetscReal        *weight;
 
   PetscFunctionBegin;
-  PetscCall(ForestGetCoarse(coarse, &mesh));
   PetscCallMPI(MPI_Comm_size(c->comm, &ranks));
   PetscCall(PetscMalloc1(c->num_leaves, &weight));
   for (PetscInt l = 0; l < c->num_leaves; ++l) weight[l] = PetscPowInt(c->order[l], mesh->dim);

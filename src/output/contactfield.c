@@ -228,20 +228,18 @@ static void AddPoint_Private(const ContactView *v, const ContactSegment *s, cons
 /* Sums over the segments of this rank's nonmortar facets: facets at the border are evaluated by several ranks. */
 static PetscErrorCode Sums_Private(Problem problem, const ContactView *v, const ContactFields *f, PetscReal sums[])
 {
-  const SceneData      *scene;
-  const ForestTables   *t;
+  const SceneData      *scene = ProblemGetScene(problem);
   const ContactSegment *segment;
   Forest                forest = ProblemForest(problem);
+  const ForestTables   *t      = ForestGetTables(forest);
   PetscInt              num;
   PetscMPIInt           rank;
   SegmentPoint          point[3 * CONTACT_SEGMENT * MORTISE_MAX_ORDER * MORTISE_MAX_ORDER];
 
   PetscFunctionBegin;
-  PetscCall(ProblemGetScene(problem, &scene));
-  PetscCall(ForestGetTables(forest, &t));
   PetscCallMPI(MPI_Comm_rank(ForestComm(forest), &rank));
   const PetscReal *x = scene->mechanics.kinematics == KINEMATICS_SMALL ? v->nonmortar.X : v->nonmortar.x;
-  PetscCall(ContactPairGetSegments(v->pair, &num, &segment));
+  ContactPairGetSegments(v->pair, &num, &segment);
   for (PetscInt s = 0; s < num; ++s) {
     if (t->leaf_rank[v->nonmortar.facet_leaf[segment[s].facet]] != rank) continue;
     const PetscInt points = v->nonmortar.dim == 2 ? EdgePoints_Private(v, x, &segment[s], point) : PolygonPoints_Private(v, x, &segment[s], point);
@@ -256,7 +254,7 @@ PetscErrorCode OutputProjectFields(Problem problem, PetscInt pair, const Contact
   PetscReal         *sums;
 
   PetscFunctionBegin;
-  PetscCall(InterfaceGetContact(ProblemInterface(problem), pair, &v));
+  v                = InterfaceGetContact(ProblemInterface(problem), pair);
   const PetscInt n = v->mortar.num_nodes;
   PetscCall(PetscCalloc1(NUM_SUMS * n, &sums));
   PetscCall(Sums_Private(problem, v, from, sums));

@@ -142,13 +142,12 @@ static void AddPart_Private(const ContactGrid *g, PetscInt first, PetscInt part,
    gathered. */
 static PetscErrorCode AppendPair_Private(ContactGrid *g, Problem problem, PetscInt i, PetscInt *first)
 {
-  const SceneData   *scene;
+  const SceneData   *scene = ProblemGetScene(problem);
   const ContactView *v;
   ContactFields      fields[2];
   const PetscInt     points = g->num_points, facets = g->num_facets;
 
   PetscFunctionBegin;
-  PetscCall(ProblemGetScene(problem, &scene));
   PetscCall(InterfaceGatherContactToAll(ProblemInterface(problem), i, &v));
   for (PetscInt k = 0; k < 2; ++k) {
     const PetscInt     side = v->spec->part ? 1 - k : k; /* what is not kept comes last */
@@ -188,7 +187,7 @@ static PetscErrorCode WriteSurfaces_Private(Writer writer, Problem problem, cons
 
   PetscFunctionBegin;
   for (PetscInt i = 0; i < num_contacts; ++i) {
-    PetscCall(InterfaceGetContact(ProblemInterface(problem), i, &v));
+    v         = InterfaceGetContact(ProblemInterface(problem), i);
     g.corners = v->nonmortar.corners;
     points += v->nonmortar.num_nodes + v->mortar.num_nodes;
     facets += AllPieces_Private(&v->nonmortar) + AllPieces_Private(&v->mortar);
@@ -220,11 +219,10 @@ static PetscErrorCode WriteSurfaces_Private(Writer writer, Problem problem, cons
 
 PetscErrorCode OutputWriteContact(Writer writer, Problem problem)
 {
-  const SceneData *scene;
+  const SceneData *scene = ProblemGetScene(problem);
   PetscMPIInt      rank;
 
   PetscFunctionBegin;
-  PetscCall(ProblemGetScene(problem, &scene));
   PetscCallMPI(MPI_Comm_rank(ForestComm(ProblemForest(problem)), &rank));
   PetscCall(WriteSurfaces_Private(writer, problem, scene, rank));
   if (scene->output.segments) PetscCall(OutputWriteSegments(writer, problem));

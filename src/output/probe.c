@@ -149,11 +149,10 @@ static PetscInt Also_Private(const ProbeSpec *spec, const CoarseMesh *mesh, Pets
 
 PetscErrorCode ProbesCreate(const SceneData *scene, Forest forest, Probes *probes)
 {
-  const CoarseMesh *mesh;
+  const CoarseMesh *mesh = ForestGetCoarse(forest);
   Probes            p;
 
   PetscFunctionBegin;
-  PetscCall(ForestGetCoarse(forest, &mesh));
   PetscCall(PetscNew(&p));
   *probes = p;
   p->num  = scene->num_probes;
@@ -209,17 +208,14 @@ static PetscInt Leaf_Private(const ForestTables *t, PetscInt root, const PetscRe
 /* Values at one place of an owned cell. */
 static PetscErrorCode Values_Private(Problem problem, PetscInt cell, const PetscReal xi[3], const PetscReal u[], ProbeValue *value)
 {
-  const SceneData    *scene;
-  const ForestTables *t;
-  const HPTables     *v;
+  const SceneData    *scene     = ProblemGetScene(problem);
+  const ForestTables *t         = ForestGetTables(ProblemForest(problem));
   HPSpace             space     = ProblemSpace(problem);
+  const HPTables     *v         = HPSpaceGetTables(space);
   Mechanics           mechanics = ProblemMechanics(problem);
   PetscReal          *nodal, *N, F[9], P[9];
 
   PetscFunctionBegin;
-  PetscCall(ProblemGetScene(problem, &scene));
-  PetscCall(ForestGetTables(ProblemForest(problem), &t));
-  PetscCall(HPSpaceGetTables(space, &v));
   const PetscInt n = ElementNumNodes(v->dim, v->cell_order[cell]);
   PetscCall(PetscMalloc2(n * v->dim, &nodal, n, &N));
   PetscCall(HPSpaceGather(space, cell, u, nodal));
@@ -237,15 +233,13 @@ static PetscErrorCode Values_Private(Problem problem, PetscInt cell, const Petsc
 
 PetscErrorCode ProbesEvaluate(Probes p, Problem problem, Vec x, ProbeValue value[])
 {
-  const ForestTables *t;
-  const HPTables     *v;
-  Forest              forest = ProblemForest(problem);
-  PetscReal          *u;
+  Forest     forest = ProblemForest(problem);
+  PetscReal *u;
 
   PetscFunctionBegin;
   if (!p->num) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(ForestGetTables(forest, &t));
-  PetscCall(HPSpaceGetTables(ProblemSpace(problem), &v));
+  const ForestTables *t = ForestGetTables(forest);
+  const HPTables     *v = HPSpaceGetTables(ProblemSpace(problem));
   PetscCall(PetscMalloc1(v->num_nodes * v->dim, &u));
   PetscCall(PetscArrayzero(value, p->num));
   PetscCall(ProblemLocalDisplacement(problem, x, u));

@@ -70,24 +70,22 @@ static void AddFan_Private(SegmentGrid *g, const ContactView *v, PetscInt pair, 
    With X NULL they are counted only. */
 static PetscErrorCode Collect_Private(Problem problem, PetscInt dim, SegmentGrid *g)
 {
-  const SceneData      *scene;
-  const ForestTables   *t;
+  const SceneData      *scene = ProblemGetScene(problem);
   const ContactView    *v;
   const ContactSegment *segment;
   Forest                forest = ProblemForest(problem);
+  const ForestTables   *t      = ForestGetTables(forest);
   PetscInt              num;
   PetscMPIInt           rank;
 
   PetscFunctionBegin;
-  PetscCall(ProblemGetScene(problem, &scene));
-  PetscCall(ForestGetTables(forest, &t));
   PetscCallMPI(MPI_Comm_rank(ForestComm(forest), &rank));
   const PetscBool small = (PetscBool)(scene->mechanics.kinematics == KINEMATICS_SMALL);
   g->num_points = g->num_cells = 0;
   for (PetscInt i = 0; i < scene->num_contacts; ++i) {
     const PetscInt pair = scene->contacts[i].pair;
-    PetscCall(InterfaceGetContact(ProblemInterface(problem), i, &v));
-    PetscCall(ContactPairGetSegments(v->pair, &num, &segment));
+    v                   = InterfaceGetContact(ProblemInterface(problem), i);
+    ContactPairGetSegments(v->pair, &num, &segment);
     for (PetscInt s = 0; s < num; ++s) {
       if (t->leaf_rank[v->nonmortar.facet_leaf[segment[s].facet]] != rank) continue;
       if (!g->X) {
@@ -105,11 +103,10 @@ static PetscErrorCode Collect_Private(Problem problem, PetscInt dim, SegmentGrid
 PetscErrorCode OutputWriteSegments(Writer writer, Problem problem)
 {
   static const char *const name[] = {"pair", "facet", "mortar_facet"};
-  const ForestTables      *t;
-  SegmentGrid              g = {0};
+  const ForestTables      *t      = ForestGetTables(ProblemForest(problem));
+  SegmentGrid              g      = {0};
 
   PetscFunctionBegin;
-  PetscCall(ForestGetTables(ProblemForest(problem), &t));
   g.corners = t->dim == 2 ? 4 : 3;
   PetscCall(Collect_Private(problem, t->dim, &g));
   const PetscInt points = g.num_points, cells = g.num_cells;

@@ -68,12 +68,10 @@ static void Connect_Private(BulkGrid *g, PetscInt cell)
 
 static PetscErrorCode GridCreate_Private(const SceneData *scene, Forest forest, HPSpace space, BulkGrid *g)
 {
-  const ForestTables *t;
-  const HPTables     *v;
+  const ForestTables *t = ForestGetTables(forest);
+  const HPTables     *v = HPSpaceGetTables(space);
 
   PetscFunctionBegin;
-  PetscCall(ForestGetTables(forest, &t));
-  PetscCall(HPSpaceGetTables(space, &v));
   PetscCall(PetscMemzero(g, sizeof(*g)));
   g->v = v;
   PetscCall(IsLinear_Private(scene, ForestComm(forest), v, &g->shared));
@@ -239,18 +237,16 @@ static PetscErrorCode WriteLeafFields_Private(Writer writer, const ForestTables 
 PetscErrorCode OutputWriteState(Writer writer, Problem problem, const State *state, const Estimate *estimate, PetscReal series_time, PetscInt step,
                                 PetscInt pass)
 {
-  const SceneData    *scene;
-  const ForestTables *t;
-  const HPTables     *v;
-  HPSpace             space = ProblemSpace(problem);
-  BulkGrid            grid;
-  PetscReal          *u;
+  const SceneData *scene;
+  HPSpace          space = ProblemSpace(problem);
+  BulkGrid         grid;
+  PetscReal       *u;
 
   PetscFunctionBegin;
   PetscCall(StageBegin(STAGE_OUTPUT));
-  PetscCall(ProblemGetScene(problem, &scene));
-  PetscCall(ForestGetTables(ProblemForest(problem), &t));
-  PetscCall(HPSpaceGetTables(space, &v));
+  scene                 = ProblemGetScene(problem);
+  const ForestTables *t = ForestGetTables(ProblemForest(problem));
+  const HPTables     *v = HPSpaceGetTables(space);
   PetscCall(PetscMalloc1(v->num_nodes * v->dim, &u));
   PetscCall(ProblemSetState(problem, state));
   PetscCall(ProblemLocalDisplacement(problem, state->x, u));

@@ -59,16 +59,13 @@ static void Points_Private(PetscInt dim, const Basis1D *rule, PetscInt num, Pets
 
 PetscErrorCode OutputSampleCell(Problem problem, PetscInt cell, const PetscReal u[], PetscReal samples[])
 {
-  const SceneData    *scene;
-  const ForestTables *t;
-  const HPTables     *v;
+  const SceneData    *scene = ProblemGetScene(problem);
+  const ForestTables *t     = ForestGetTables(ProblemForest(problem));
+  const HPTables     *v     = HPSpaceGetTables(ProblemSpace(problem));
   const Basis1D      *basis;
   PetscReal          *xi, *F, *P;
 
   PetscFunctionBegin;
-  PetscCall(ProblemGetScene(problem, &scene));
-  PetscCall(ForestGetTables(ProblemForest(problem), &t));
-  PetscCall(HPSpaceGetTables(ProblemSpace(problem), &v));
   const PetscInt p = v->cell_order[cell], np = ElementNumNodes(v->dim, p - 1); /* p points in each direction */
   if (scene->mechanics.bodies[t->leaf_body[v->cell_leaf[cell]]].material->law->rigid) {
     for (PetscInt i = 0; i < 7 * np; ++i) samples[i] = i % 7 == 6;
@@ -85,16 +82,13 @@ PetscErrorCode OutputSampleCell(Problem problem, PetscInt cell, const PetscReal 
 
 PetscErrorCode OutputSampleQuantities(Problem problem, PetscInt cell, const PetscReal u[], PetscReal samples[])
 {
-  const SceneData    *scene;
-  const ForestTables *t;
-  const HPTables     *v;
+  const SceneData    *scene = ProblemGetScene(problem);
+  const ForestTables *t     = ForestGetTables(ProblemForest(problem));
+  const HPTables     *v     = HPSpaceGetTables(ProblemSpace(problem));
   const Basis1D      *basis;
   PetscReal          *xi, *F, *P, *W;
 
   PetscFunctionBegin;
-  PetscCall(ProblemGetScene(problem, &scene));
-  PetscCall(ForestGetTables(ProblemForest(problem), &t));
-  PetscCall(HPSpaceGetTables(ProblemSpace(problem), &v));
   const PetscInt p = v->cell_order[cell], np = ElementNumNodes(v->dim, p - 1);
   if (scene->mechanics.bodies[t->leaf_body[v->cell_leaf[cell]]].material->law->rigid) {
     for (PetscInt i = 0; i < OUTPUT_QUANTITIES * np; ++i) samples[i] = i % OUTPUT_QUANTITIES < 3;
@@ -116,12 +110,11 @@ PetscErrorCode OutputSampleQuantities(Problem problem, PetscInt cell, const Pets
 
 PetscErrorCode OutputSamplePlastic(Problem problem, PetscInt cell, const PetscReal u[], PetscReal samples[])
 {
-  const HPTables *v;
+  const HPTables *v = HPSpaceGetTables(ProblemSpace(problem));
   const Basis1D  *basis;
   PetscReal      *xi;
 
   PetscFunctionBegin;
-  PetscCall(HPSpaceGetTables(ProblemSpace(problem), &v));
   const PetscInt p = v->cell_order[cell], np = ElementNumNodes(v->dim, p - 1);
   PetscCall(Basis1DGet(p, p, &basis));
   PetscCall(PetscMalloc1(np * v->dim, &xi));

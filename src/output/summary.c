@@ -304,11 +304,10 @@ static PetscErrorCode GatherRun_Private(MPI_Comm comm, Gathered *g)
 /* Cells, dofs, orders of deformable cells, probes. */
 static PetscErrorCode GatherState_Private(const SceneData *scene, const RunSummary *s, Gathered *g)
 {
-  const ForestTables *t;
+  const ForestTables *t = ForestGetTables(ProblemForest(s->problem));
 
   PetscFunctionBegin;
-  PetscCall(ForestGetTables(ProblemForest(s->problem), &t));
-  PetscCall(ProblemNumDofs(s->problem, &g->dofs));
+  g->dofs      = ProblemNumDofs(s->problem);
   g->cells     = t->num_leaves;
   g->order_min = MORTISE_MAX_ORDER;
   for (PetscInt leaf = 0; leaf < t->num_leaves; ++leaf) {

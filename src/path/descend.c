@@ -3,10 +3,7 @@
 
 PetscBool PathCanDescend(const Path *p, const State *guess)
 {
-  PetscBool yes = PETSC_FALSE;
-
-  (void)SolverHasDescent(p->level->solver, &yes);
-  return yes;
+  return SolverHasDescent(p->level->solver);
 }
 
 PetscErrorCode PathDescend(Path *p, const PathLoop *load, PetscReal to, const State *guess, SolverReport *report)

@@ -50,10 +50,9 @@ void PathCount(Path *p, const SolverReport *report, PetscBool equilibrium)
 
 PetscErrorCode PathFrom(const Path *p, PetscReal **from)
 {
-  const HPTables *v;
+  const HPTables *v = HPSpaceGetTables(ProblemSpace(p->level->problem));
 
   PetscFunctionBegin;
-  PetscCall(HPSpaceGetTables(ProblemSpace(p->level->problem), &v));
   PetscCall(PetscMalloc1(v->num_nodes * v->dim, from));
   PetscCall(ProblemLocalDisplacement(p->level->problem, p->level->state.x, *from));
   PetscFunctionReturn(PETSC_SUCCESS);

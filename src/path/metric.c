@@ -29,7 +29,7 @@ static PetscErrorCode TimeSet_Private(Path *p, const PathLoop *loop, PetscReal t
   PetscBool turned;
 
   PetscFunctionBegin;
-  PetscCall(ProblemHold(p->level->problem));
+  ProblemHold(p->level->problem);
   PetscCall(ProblemSetTime(p->level->problem, to));
   PetscCall(ProblemTurn(p->level->problem, p->level->state.x, &turned));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -54,7 +54,7 @@ static PetscReal End_Private(const Path *p, const PathLoop *loop)
 static PetscErrorCode ArcSet_Private(Path *p, const PathLoop *loop, PetscReal to)
 {
   PetscFunctionBegin;
-  PetscCall(ProblemAdvance(p->level->problem, to));
+  ProblemAdvance(p->level->problem, to);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -94,7 +94,7 @@ const PathMetric PathArc = {"arc length", 0.5, GROWTH, PETSC_TRUE, End_Private, 
 static PetscErrorCode OverlapSet_Private(Path *p, const PathLoop *loop, PetscReal to)
 {
   PetscFunctionBegin;
-  PetscCall(ProblemLeaveOverlap(p->level->problem, 1 - to));
+  ProblemLeaveOverlap(p->level->problem, 1 - to);
   PetscCall(loop->load->metric->set(p, loop->load, loop->at));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

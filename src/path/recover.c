@@ -65,7 +65,7 @@ static PetscErrorCode Overlap_Private(Path *p, const PathLoop *load, PetscReal t
   PetscCall(ProblemNoteOverlap(problem, p->level->state.x, &deepest));
   if (deepest > 0) PetscCall(PathAttempt(p, &loop, 0, report));
   if (report->converged) PetscCall(PathFollow(p, &loop, report));
-  PetscCall(ProblemLeaveOverlap(problem, 0));
+  ProblemLeaveOverlap(problem, 0);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -94,9 +94,9 @@ static PetscErrorCode Predictor_Private(Path *p, const PathLoop *load, PetscReal
 {
   PetscFunctionBegin;
   PetscCall(Begin_Private(p, NULL));
-  PetscCall(SolverSwapPredictor(p->level->solver, PETSC_TRUE));
+  SolverSwapPredictor(p->level->solver, PETSC_TRUE);
   PetscCall(PathAttempt(p, load, to, report));
-  PetscCall(SolverSwapPredictor(p->level->solver, PETSC_FALSE));
+  SolverSwapPredictor(p->level->solver, PETSC_FALSE);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

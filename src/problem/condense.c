@@ -72,7 +72,7 @@ PetscErrorCode ProblemReduce_Private(Problem p, Vec r, Vec rhs)
   PetscCall(VecGetArray(rhs, &to));
   PetscCall(PetscArraycpy(to, from + p->num_inner, p->num_rows));
   if (p->condensed) {
-    PetscCall(HPSpaceGetDM(p->space, &dm));
+    dm = HPSpaceGetDM(p->space);
     PetscCall(VecSet(p->r_local, 0));
     PetscCall(VecGetArray(p->r_local, &local));
     for (PetscInt i = 0; i < v->point_node[v->num_owned_cells] * p->dim; ++i) {

@@ -31,12 +31,11 @@ static PetscInt OrderAlong_Private(const BodySpec *body, const PetscReal line[3]
 
 PetscErrorCode ProblemOrderCaps(const SceneData *scene, Forest forest, int8_t (**cap)[3])
 {
-  const ForestTables *t;
-  PetscBool           lower = PETSC_FALSE;
+  PetscBool lower = PETSC_FALSE;
 
   PetscFunctionBegin;
-  *cap = NULL;
-  PetscCall(ForestGetTables(forest, &t));
+  *cap                  = NULL;
+  const ForestTables *t = ForestGetTables(forest);
   for (PetscInt b = 0; b < scene->mechanics.num_bodies; ++b) {
     for (PetscInt c = 0; c < t->dim; ++c) lower = (PetscBool)(lower || scene->bodies[b].order_along[c]);
   }

@@ -15,16 +15,10 @@
    them. */
 #include "problemimpl.h"
 
-PetscErrorCode ProblemHasEnergy(Problem p, PetscBool *yes)
+PetscBool ProblemHasEnergy(Problem p)
 {
-  PetscBool incompressible;
-
-  PetscFunctionBegin;
-  PetscCall(ProblemIsSymmetric(p, yes));
-  PetscCall(ProblemIsIncompressible(p, &incompressible));
-  if (incompressible || p->num_scalars > 0 || p->viscous || InterfaceTies(p->interface)) *yes = PETSC_FALSE;
-  if (p->scene->mechanics.kinematics == KINEMATICS_SMALL || MechanicsIsPlastic(&p->scene->mechanics)) *yes = PETSC_FALSE;
-  PetscFunctionReturn(PETSC_SUCCESS);
+  if (!ProblemIsSymmetric(p) || ProblemIsIncompressible(p) || p->num_scalars > 0 || p->viscous || InterfaceTies(p->interface)) return PETSC_FALSE;
+  return (PetscBool)(p->scene->mechanics.kinematics != KINEMATICS_SMALL && !MechanicsIsPlastic(&p->scene->mechanics));
 }
 
 /* Energy and forces of cells and dead loads into the local array r; status but for noise and volume. */

@@ -12,12 +12,11 @@ PetscErrorCode ProblemFreeAxes(Problem p, PetscInt body, PetscInt *axes, PetscBo
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ProblemHasFreeBody(Problem p, PetscBool *yes)
+PetscBool ProblemHasFreeBody(Problem p)
 {
-  PetscFunctionBegin;
-  *yes = PETSC_FALSE;
-  for (PetscInt b = 0; b < p->scene->mechanics.num_bodies; ++b) *yes = (PetscBool)(*yes || !MechanicsIsHeld(p->mechanics, b));
-  PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt b = 0; b < p->scene->mechanics.num_bodies; ++b)
+    if (!MechanicsIsHeld(p->mechanics, b)) return PETSC_TRUE;
+  return PETSC_FALSE;
 }
 
 PetscErrorCode ProblemFindSlide(Problem p, Vec dx, Vec force, PetscReal *excess)

@@ -12,11 +12,10 @@ PetscErrorCode ProblemLayout_Private(Problem p)
 {
   const PetscInt *global;
   PetscInt       *counts;
-  DM              dm;
 
   PetscFunctionBegin;
   PetscCall(HPSpaceGetGlobalDofs(p->space, &global));
-  PetscCall(HPSpaceGetDM(p->space, &dm));
+  const DM dm = HPSpaceGetDM(p->space);
   PetscCall(DMCreateGlobalVector(dm, &p->u_global));
   PetscCall(VecGetLocalSize(p->u_global, &p->num_u));
   PetscCall(PetscMalloc3(p->size + 1, &p->u_start, p->size + 1, &p->p_start, p->size + 1, &p->row_start));
@@ -124,9 +123,7 @@ static PetscErrorCode BulkPattern_Private(Problem p, PetscInt diagonal[], PetscI
     }
   }
   PetscCall(PetscFree3(stamp, work, columns));
-  PetscCall(PetscFree(zeros));
-  PetscCall(PetscFree(offset));
-  PetscCall(PetscFree(cells));
+  PetscCall(FreeAll(3, (void *[]){&zeros, &offset, &cells}));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -3,13 +3,11 @@
 
 #define MOST_VERTICES 64 /* of a node's row: 8 of a cell, each with up to 8 masters */
 
-PetscErrorCode ProblemGetBlocks(Problem p, PetscInt *num_u, PetscInt *num_z, PetscInt *dim)
+void ProblemGetBlocks(Problem p, PetscInt *num_u, PetscInt *num_z, PetscInt *dim)
 {
-  PetscFunctionBegin;
   *num_u = p->num_u - p->num_inner;
   *num_z = p->num_z;
   *dim   = p->dim;
-  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Row of a local dof among this rank's displacement dofs in the matrix, -1: prescribed, hanging, condensed or another rank's. */
@@ -92,10 +90,9 @@ static PetscErrorCode CoarseNumbers_Private(Problem p, const HPTables *v, const 
   const PetscReal *u;
   PetscReal       *array;
   PetscInt         first = 0;
-  DM               dm;
+  const DM         dm    = HPSpaceGetDM(p->space);
 
   PetscFunctionBegin;
-  PetscCall(HPSpaceGetDM(p->space, &dm));
   *size = 0;
   for (PetscInt n = 0; n < v->num_nodes; ++n) {
     PetscBool free = PETSC_FALSE;
@@ -161,12 +158,11 @@ static PetscErrorCode Pinned_Private(Problem p, const HPTables *v, const PetscIn
 PetscErrorCode ProblemProlongation(Problem p, Mat *P, Mat *pinned, MatNullSpace *modes, PetscBool *higher)
 {
   const HPTables     *v = p->tables;
-  const ForestTables *t;
+  const ForestTables *t = ForestGetTables(p->forest);
   PetscInt           *column, *global, size, first;
   int                 any = 0;
 
   PetscFunctionBegin;
-  PetscCall(ForestGetTables(p->forest, &t));
   for (PetscInt n = 0; n < v->num_nodes; ++n) any = any || v->node_entity[n] >= t->first[1];
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_MAX, p->comm));
   *higher = (PetscBool)any;

@@ -4,16 +4,14 @@
 PetscErrorCode ProblemNoteOverlap(Problem p, Vec x, PetscReal *deepest)
 {
   PetscFunctionBegin;
-  PetscCall(ProblemLeaveOverlap(p, 0));
+  ProblemLeaveOverlap(p, 0);
   PetscCall(ProblemSearch(p, x));
   PetscCall(ProblemRefresh(p, x));
   PetscCall(InterfaceNoteOverlap(p->interface, deepest));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ProblemLeaveOverlap(Problem p, PetscReal share)
+void ProblemLeaveOverlap(Problem p, PetscReal share)
 {
-  PetscFunctionBegin;
-  PetscCall(InterfaceLeaveOverlap(p->interface, share));
-  PetscFunctionReturn(PETSC_SUCCESS);
+  InterfaceLeaveOverlap(p->interface, share);
 }

@@ -46,11 +46,9 @@ PetscErrorCode ProblemFollow(Problem p, Vec from, Vec to, PetscReal *length)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ProblemGetPath(Problem p, Vec *direction)
+void ProblemGetPath(Problem p, Vec *direction)
 {
-  PetscFunctionBegin;
   *direction = p->following ? p->path : NULL;
-  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode ProblemFollowAlong(Problem p, Vec direction, Vec to)
@@ -64,26 +62,20 @@ PetscErrorCode ProblemFollowAlong(Problem p, Vec direction, Vec to)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ProblemAdvance(Problem p, PetscReal advance)
+void ProblemAdvance(Problem p, PetscReal advance)
 {
-  PetscFunctionBegin;
   p->path_advance = advance;
   p->following    = PETSC_TRUE;
-  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ProblemHold(Problem p)
+void ProblemHold(Problem p)
 {
-  PetscFunctionBegin;
   p->following = PETSC_FALSE;
-  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ProblemIsFollowing(Problem p, PetscBool *following)
+PetscBool ProblemIsFollowing(Problem p)
 {
-  PetscFunctionBegin;
-  *following = p->following;
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return p->following;
 }
 
 PetscErrorCode ProblemGetTime(Problem p, Vec x, PetscReal *t)

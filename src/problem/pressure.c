@@ -5,45 +5,37 @@
    one B and B^T. */
 #include "problemimpl.h"
 
-PetscErrorCode ProblemIsIncompressible(Problem p, PetscBool *yes)
+PetscBool ProblemIsIncompressible(Problem p)
 {
-  PetscFunctionBegin;
-  *yes = PETSC_FALSE;
-  for (PetscInt b = 0; b < p->scene->mechanics.num_bodies; ++b) {
-    if (p->scene->bodies[b].material->incompressible) *yes = PETSC_TRUE;
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt b = 0; b < p->scene->mechanics.num_bodies; ++b)
+    if (p->scene->bodies[b].material->incompressible) return PETSC_TRUE;
+  return PETSC_FALSE;
 }
 
 /* Pressure unknowns of a leaf, of any rank. */
-static PetscErrorCode LeafUnknowns_Private(Problem p, const ForestTables *t, PetscInt leaf, PetscInt *num)
+static void LeafUnknowns_Private(Problem p, const ForestTables *t, PetscInt leaf, PetscInt *num)
 {
-  PetscInt order;
-
-  PetscFunctionBegin;
   *num = 0;
-  if (!p->scene->bodies[t->leaf_body[leaf]].material->incompressible) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(HPSpaceGetOrder(p->space, t->first[t->dim] + leaf, &order));
-  *num = MechanicsPressureCount(t->dim, order);
-  PetscFunctionReturn(PETSC_SUCCESS);
+  if (!p->scene->bodies[t->leaf_body[leaf]].material->incompressible) return;
+  const PetscInt order = HPSpaceGetOrder(p->space, t->first[t->dim] + leaf);
+  *num                 = MechanicsPressureCount(t->dim, order);
 }
 
 /* Unknowns live with the owner of their cell, in the order of the leaves. pi_index: place in the owner's block, until the next function. */
 PetscErrorCode PressureNumber_Private(Problem p, PetscInt counts[])
 {
-  const ForestTables *t;
+  const ForestTables *t = ForestGetTables(p->forest);
   const HPTables     *v = p->tables;
   PetscInt           *place, first, num, owned, all;
 
   PetscFunctionBegin;
-  PetscCall(ForestGetTables(p->forest, &t));
   PetscCall(MechanicsNumUnknowns(p->mechanics, &owned, &all));
   PetscCall(PetscMalloc3(all, &p->pi_index, all, &p->pi_row, all, &p->pi_rank));
   PetscCall(PetscMalloc1(owned, &p->pi_scale));
   PetscCall(PetscMalloc1(t->num_leaves, &place));
   p->pi_first = counts[p->rank];
   for (PetscInt l = 0; l < t->num_leaves; ++l) {
-    PetscCall(LeafUnknowns_Private(p, t, l, &num));
+    LeafUnknowns_Private(p, t, l, &num);
     place[l] = counts[t->leaf_rank[l]];
     counts[t->leaf_rank[l]] += num;
   }
@@ -64,12 +56,11 @@ PetscErrorCode PressureNumber_Private(Problem p, PetscInt counts[])
 
 PetscErrorCode PressureIndices_Private(Problem p)
 {
-  PetscInt  owned, all;
-  PetscBool any;
-  IS        from;
+  PetscInt        owned, all;
+  const PetscBool any = ProblemIsIncompressible(p);
+  IS              from;
 
   PetscFunctionBegin;
-  PetscCall(ProblemIsIncompressible(p, &any));
   if (!any) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(MechanicsNumUnknowns(p->mechanics, &owned, &all));
   for (PetscInt i = 0; i < all; ++i) p->pi_index[i] += p->p_start[p->pi_rank[i]];
@@ -122,13 +113,6 @@ PetscErrorCode ProblemSetPressures(Problem p, const PetscReal pressure[], Vec x)
   PetscCall(VecGetArray(x, &array));
   PetscCall(PetscArraycpy(array + p->pi_first, pressure, p->num_pi));
   PetscCall(VecRestoreArray(x, &array));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode PressureRows_Private(Problem p, PetscReal r[])
-{
-  PetscFunctionBegin;
-  PetscCall(MechanicsVolumeRows(p->mechanics, r + p->pi_first));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -3,10 +3,9 @@
 
 PetscErrorCode ProblemInitialOrders(const SceneData *scene, Forest forest, int8_t **leaf_order)
 {
-  const ForestTables *t;
+  const ForestTables *t = ForestGetTables(forest);
 
   PetscFunctionBegin;
-  PetscCall(ForestGetTables(forest, &t));
   PetscCall(PetscMalloc1(t->num_leaves, leaf_order));
   for (PetscInt l = 0; l < t->num_leaves; ++l) (*leaf_order)[l] = (int8_t)scene->bodies[t->leaf_body[l]].order;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -41,7 +40,6 @@ static uint64_t MirrorGroups_Private(const SceneData *scene)
 
 static PetscErrorCode Vectors_Private(Problem p)
 {
-
   PetscFunctionBegin;
   PetscCall(VecCreateSeq(PETSC_COMM_SELF, p->num_local, &p->u_local));
   PetscCall(VecDuplicate(p->u_local, &p->r_local));
@@ -51,9 +49,8 @@ static PetscErrorCode Vectors_Private(Problem p)
 
 PetscErrorCode ProblemCreate(const SceneData *scene, Forest forest, const int8_t leaf_order[], Problem *problem)
 {
-  const Form          plain = FormPlain(PETSC_FALSE);
-  const ForestTables *t;
-  Problem             p;
+  const Form plain = FormPlain(PETSC_FALSE);
+  Problem    p;
   int8_t(*cap)[3];
 
   PetscFunctionBegin;
@@ -64,8 +61,8 @@ PetscErrorCode ProblemCreate(const SceneData *scene, Forest forest, const int8_t
   p->comm   = ForestComm(forest);
   PetscCallMPI(MPI_Comm_rank(p->comm, &p->rank));
   PetscCallMPI(MPI_Comm_size(p->comm, &p->size));
-  PetscCall(ForestGetTables(forest, &t));
-  p->dim = t->dim;
+  const ForestTables *t = ForestGetTables(forest);
+  p->dim                = t->dim;
   ErrorAsked("%" PetscInt_FMT " cells", t->num_leaves);
   PetscCall(PetscMalloc1(t->num_leaves, &p->leaf_order));
   PetscCall(PetscArraycpy(p->leaf_order, leaf_order, t->num_leaves));
@@ -74,7 +71,7 @@ PetscErrorCode ProblemCreate(const SceneData *scene, Forest forest, const int8_t
   PetscCall(PetscFree(cap));
   PetscCall(MechanicsSupportsCreate(p->space, &scene->mechanics, &p->supports));
   PetscCall(HPSpaceSetUp(p->space, p->supports.fixed, p->supports.num_frames, p->supports.frame_node, (const PetscReal(*)[9])p->supports.frame));
-  PetscCall(HPSpaceGetTables(p->space, &p->tables));
+  p->tables    = HPSpaceGetTables(p->space);
   p->num_local = p->tables->num_nodes * p->dim;
   PetscCall(MechanicsCreate(p->space, &scene->mechanics, &p->supports, &p->mechanics));
   PetscCall(InterfaceCreate(p->space, p->mechanics, &scene->mechanics, p->supports.fixed, scene->num_contacts, scene->contacts, &p->interface));
@@ -113,11 +110,9 @@ PetscErrorCode ProblemDestroy(Problem *problem)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ProblemGetScene(Problem p, const SceneData **scene)
+const SceneData *ProblemGetScene(Problem p)
 {
-  PetscFunctionBegin;
-  *scene = p->scene;
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return p->scene;
 }
 
 Forest ProblemForest(Problem p)
@@ -164,33 +159,26 @@ PetscErrorCode ProblemGetMatrix(Problem p, Mat *matrix)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ProblemGetSymmetric(Problem p, PetscBool *symmetric)
+PetscBool ProblemGetSymmetric(Problem p)
 {
-  PetscFunctionBegin;
-  *symmetric = p->symmetric;
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return p->symmetric;
 }
 
-PetscErrorCode ProblemIsSymmetric(Problem p, PetscBool *possible)
+PetscBool ProblemIsSymmetric(Problem p)
 {
-  PetscFunctionBegin;
-  PetscCall(ProblemIsSymmetricBut(p, NULL, possible));
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return ProblemIsSymmetricBut(p, NULL);
 }
 
-PetscErrorCode ProblemIsSymmetricBut(Problem p, const MaterialSpec *but, PetscBool *possible)
+PetscBool ProblemIsSymmetricBut(Problem p, const MaterialSpec *but)
 {
   const MechanicsSpec *m = &p->scene->mechanics;
 
-  PetscFunctionBegin;
-  *possible = (PetscBool)(p->scene->load.control == LOAD_TIME && InterfaceIsSymmetric(p->interface) && RigidIsSymmetric_Private(p));
-  for (PetscInt b = 0; b < m->num_boundaries; ++b) {
-    if (BoundaryHasPressure(&m->boundaries[b]) && m->kinematics == KINEMATICS_FINITE) *possible = PETSC_FALSE;
-  }
-  for (PetscInt b = 0; b < m->num_bodies; ++b) {
-    if (m->bodies[b].material != but && m->bodies[b].material->law->unsymmetric) *possible = PETSC_FALSE;
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
+  if (p->scene->load.control != LOAD_TIME || !InterfaceIsSymmetric(p->interface) || !RigidIsSymmetric_Private(p)) return PETSC_FALSE;
+  for (PetscInt b = 0; b < m->num_boundaries; ++b)
+    if (BoundaryHasPressure(&m->boundaries[b]) && m->kinematics == KINEMATICS_FINITE) return PETSC_FALSE;
+  for (PetscInt b = 0; b < m->num_bodies; ++b)
+    if (m->bodies[b].material != but && m->bodies[b].material->law->unsymmetric) return PETSC_FALSE;
+  return PETSC_TRUE;
 }
 
 PetscErrorCode ProblemSetState(Problem p, const State *s)
@@ -209,15 +197,13 @@ PetscErrorCode ProblemSetForm(Problem p, const Form *form)
   p->form = *form;
   PetscCall(MechanicsSetFlow(p->mechanics, form->edge, form->secant));
   PetscCall(MechanicsSetProximalShift(p->mechanics, form->proximal));
-  PetscCall(InterfaceSetForm(p->interface, &p->form));
+  InterfaceSetForm(p->interface, &p->form);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ProblemNumDofs(Problem p, PetscInt *num)
+PetscInt ProblemNumDofs(Problem p)
 {
-  PetscFunctionBegin;
-  *num = p->num_dofs;
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return p->num_dofs;
 }
 
 PetscErrorCode ProblemNumNegative(Problem p, PetscInt *num)
@@ -244,7 +230,6 @@ PetscErrorCode ProblemSetTime(Problem p, PetscReal t)
 
 PetscErrorCode ProblemJump(Problem p)
 {
-
   PetscFunctionBegin;
   PetscCall(PetscArraycpy(p->applied, p->target, p->num_local));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -252,7 +237,6 @@ PetscErrorCode ProblemJump(Problem p)
 
 PetscErrorCode ProblemPending(Problem p, PetscReal *remaining)
 {
-
   PetscFunctionBegin;
   *remaining = 0;
   for (PetscInt i = 0; i < p->num_local; ++i) {
@@ -268,10 +252,9 @@ static PetscErrorCode FillLocal_Private(Problem p, Vec x, const PetscReal prescr
 {
   const PetscReal *array;
   Vec              ul;
-  DM               dm;
+  const DM         dm = HPSpaceGetDM(p->space);
 
   PetscFunctionBegin;
-  PetscCall(HPSpaceGetDM(p->space, &dm));
   PetscCall(PetscArraycpy(local, prescribed, p->num_local));
   PetscCall(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, p->num_local, local, &ul));
   PetscCall(VecGetArrayRead(x, &array));
@@ -288,7 +271,7 @@ PetscErrorCode ProblemLocalDisplacement(Problem p, Vec x, PetscReal local[])
   PetscFunctionBegin;
   PetscCall(ScalarsRead_Private(p, x));
   PetscCall(FillLocal_Private(p, x, p->applied, local));
-  PetscCall(RigidMove_Private(p, local));
+  RigidMove_Private(p, local);
   PetscCall(PressureSpread_Private(p, x));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -305,7 +288,7 @@ PetscErrorCode ProblemIncrement_Private(Problem p, Vec dx, PetscReal share)
     PetscReal *change;
     PetscCall(PetscMalloc1(p->num_scalars, &change));
     PetscCall(ProblemGetScalars(p, dx, change));
-    PetscCall(RigidIncrement_Private(p, change + p->num_controls, p->increment));
+    RigidIncrement_Private(p, change + p->num_controls, p->increment);
     PetscCall(PetscFree(change));
   }
   PetscCall(PetscFree(pending));
@@ -345,7 +328,7 @@ PetscErrorCode ProblemWork(Problem p, Vec r, Vec dx, PetscReal *work)
 PetscErrorCode ProblemStepBegin(Problem p, Vec x, Vec dx)
 {
   PetscFunctionBegin;
-  PetscCall(InterfaceKeepSearch(p->interface));
+  InterfaceKeepSearch(p->interface);
   PetscCall(ProblemIncrement_Private(p, dx, 1.0));
   PetscCall(VecCopy(x, p->start_x));
   PetscCall(PetscArraycpy(p->start_applied, p->applied, p->num_local));
@@ -375,7 +358,6 @@ static PetscErrorCode Rest_Private(Problem p, Vec dx, Vec x)
 
 PetscErrorCode ProblemStepMove(Problem p, Vec dx, PetscReal step, PetscBool whole, Vec x)
 {
-
   PetscFunctionBegin;
   PetscCall(VecWAXPY(x, step, dx, p->start_x));
   if (whole) PetscCall(Rest_Private(p, dx, x));
@@ -407,11 +389,10 @@ PetscErrorCode ProblemFindInverted(Problem p, PetscInt *order, PetscReal X[3], P
 
 PetscErrorCode ProblemFindFolded(Problem p, Vec x, int8_t folded[])
 {
-  const ForestTables *t;
+  const ForestTables *t = ForestGetTables(p->forest);
   PetscReal          *u;
 
   PetscFunctionBegin;
-  PetscCall(ForestGetTables(p->forest, &t));
   PetscCall(PetscArrayzero(folded, t->num_leaves));
   PetscCall(VecGetArray(p->u_local, &u));
   PetscCall(ProblemLocalDisplacement(p, x, u));

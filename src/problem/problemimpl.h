@@ -84,15 +84,14 @@ PetscErrorCode ScalarsPattern_Private(Problem, PetscInt diagonal[], PetscInt oth
 PetscErrorCode ScalarsTangent_Private(Problem, const PetscReal u[]);
 PetscErrorCode ScalarsColumn_Private(Problem, PetscInt k, const PetscReal local[]);
 /* rigid.c. SetRows: its unknowns have the rows from `first` on. Read: values. Move: what they add to the displacements of a local array. Increment: dx = G dq,
-   added. Measure: forces that hold the bodies, r a local array of this rank's forces. Residual: rows r[num_rigid]. Tangent: diagonal. Collective. */
+   added. Measure: forces that hold the bodies, r a local array of this rank's forces. Tangent: diagonal. Collective. */
 PetscErrorCode RigidCreate_Private(Problem);
 PetscErrorCode RigidSetRows_Private(Problem, PetscInt first);
 PetscErrorCode RigidSetTime_Private(Problem); /* loads */
 PetscErrorCode RigidRead_Private(Problem, const PetscReal q[]);
-PetscErrorCode RigidMove_Private(Problem, PetscReal local[]);
-PetscErrorCode RigidIncrement_Private(Problem, const PetscReal dq[], PetscReal local[]);
+void           RigidMove_Private(Problem, PetscReal local[]);
+void           RigidIncrement_Private(Problem, const PetscReal dq[], PetscReal local[]);
 PetscErrorCode RigidMeasure_Private(Problem, const PetscReal r[]);
-PetscErrorCode RigidResidual_Private(Problem, PetscReal r[]);
 PetscErrorCode RigidTangent_Private(Problem);
 PetscReal      RigidWork_Private(Problem, const PetscReal r[], const PetscReal dq[]); /* of their rows on changes of these unknowns */
 PetscBool      RigidIsSymmetric_Private(Problem);                                     /* is their part of the tangent? */
@@ -111,8 +110,6 @@ PetscErrorCode PressureRowNumbers_Private(Problem, const PetscInt inner[]);
 PetscErrorCode PressureDestroy_Private(Problem);
 /* Pressures of local cells from x to the mechanics. Collective. */
 PetscErrorCode PressureSpread_Private(Problem, Vec x);
-/* Rows of the last residual into this rank's part of it. */
-PetscErrorCode PressureRows_Private(Problem, PetscReal r[]);
 /* Entries of this rank's cells in the matrix: counted, or without counters written as explicit zeros. Columns of a cell in the rows of its nodes, appended. */
 PetscErrorCode PressurePattern_Private(Problem, PetscInt diagonal[], PetscInt other[]);
 PetscErrorCode PressureColumns_Private(Problem, PetscInt cell, PetscInt columns[], PetscInt *num);

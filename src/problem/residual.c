@@ -63,10 +63,9 @@ static PetscErrorCode LocalForces_Private(Problem p, Vec x, const PetscReal u[],
 
 PetscErrorCode ProblemToGlobal_Private(Problem p, PetscReal array[])
 {
-  DM dm;
+  const DM dm = HPSpaceGetDM(p->space);
 
   PetscFunctionBegin;
-  PetscCall(HPSpaceGetDM(p->space, &dm));
   PetscCall(VecPlaceArray(p->u_global, array));
   PetscCall(VecSet(p->u_global, 0));
   PetscCall(DMLocalToGlobal(dm, p->r_local, ADD_VALUES, p->u_global));
@@ -89,8 +88,8 @@ PetscErrorCode ProblemResidual(Problem p, Vec x, const PetscReal pressure[], Vec
   PetscCall(VecRestoreArray(p->r_local, &local));
   PetscCall(VecGetArray(r, &array));
   PetscCall(ProblemToGlobal_Private(p, array));
-  PetscCall(InterfaceRows(p->interface, array));
-  PetscCall(PressureRows_Private(p, array));
+  InterfaceRows(p->interface, array);
+  PetscCall(MechanicsVolumeRows(p->mechanics, array + p->pi_first));
   PetscCall(ScalarsResidual_Private(p, x, array));
   PetscCall(VecRestoreArray(r, &array));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -83,11 +83,10 @@ PetscErrorCode RigidRead_Private(Problem p, const PetscReal q[])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode RigidMove_Private(Problem p, PetscReal local[])
+void RigidMove_Private(Problem p, PetscReal local[])
 {
   const HPTables *v = p->tables;
 
-  PetscFunctionBegin;
   for (PetscInt n = 0; n < v->num_nodes && p->num_links; ++n) {
     if (p->node_link[n] < 0) continue;
     const RigidLink *l = &p->links[p->node_link[n]];
@@ -96,14 +95,12 @@ PetscErrorCode RigidMove_Private(Problem p, PetscReal local[])
     for (PetscInt c = 0; c < p->dim; ++c)
       for (PetscInt d = 0; d < p->dim; ++d) local[n * p->dim + c] += (l->R[3 * c + d] - (c == d)) * (v->X[3 * n + d] - l->point[d]);
   }
-  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode RigidIncrement_Private(Problem p, const PetscReal dq[], PetscReal local[])
+void RigidIncrement_Private(Problem p, const PetscReal dq[], PetscReal local[])
 {
   const HPTables *v = p->tables;
 
-  PetscFunctionBegin;
   for (PetscInt n = 0; n < v->num_nodes; ++n) {
     for (PetscInt k = 0; k < p->num_rigid && p->node_link[n] >= 0; ++k) {
       PetscReal dx[3];
@@ -112,7 +109,6 @@ PetscErrorCode RigidIncrement_Private(Problem p, const PetscReal dq[], PetscReal
       for (PetscInt c = 0; c < p->dim; ++c) local[n * p->dim + c] += dx[c] * dq[k];
     }
   }
-  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Of node n of a body: (x - c) f^T, added. */
@@ -161,13 +157,6 @@ PetscErrorCode RigidSetTime_Private(Problem p)
     PetscCall(MechanicsValue(m < 3 ? body->load[m] : body->load_moment[m - 3], &body->amplitude, origin, p->t, &p->rigid[k].load));
     if (m >= 3) p->rigid[k].load /= l->length;
   }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode RigidResidual_Private(Problem p, PetscReal r[])
-{
-  PetscFunctionBegin;
-  for (PetscInt k = 0; k < p->num_rigid; ++k) r[k] = p->rigid[k].force - p->rigid[k].load;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -25,11 +25,10 @@ static PetscErrorCode Edges_Private(Problem p, PetscInt cell, const PetscReal u[
 static PetscErrorCode Spread_Private(Problem p, const PetscReal from[], const PetscReal now[], PetscReal spread[])
 {
   const HPTables     *v = p->tables;
-  const ForestTables *t;
+  const ForestTables *t = ForestGetTables(p->forest);
   PetscReal           before[3][3], after[3][3], *work;
 
   PetscFunctionBegin;
-  PetscCall(ForestGetTables(p->forest, &t));
   PetscCall(PetscMalloc1(2 * v->dim * ElementNumNodes(v->dim, MORTISE_MAX_ORDER), &work));
   for (PetscInt c = 0; c < v->num_owned_cells; ++c) {
     PetscReal *s = spread + 9 * t->leaf_body[v->cell_leaf[c]];
@@ -62,12 +61,10 @@ static PetscReal Rolled_Private(PetscInt dim, const PetscReal a[4], const PetscR
 /* has[side][body]: a pair has facets of the body on that side. */
 static PetscErrorCode Bodies_Private(Problem p, PetscInt pair, PetscInt num, PetscInt has[])
 {
-  const ForestTables *t;
-  const ContactView  *v;
+  const ForestTables *t = ForestGetTables(p->forest);
+  const ContactView  *v = InterfaceGetContact(p->interface, pair);
 
   PetscFunctionBegin;
-  PetscCall(ForestGetTables(p->forest, &t));
-  PetscCall(InterfaceGetContact(p->interface, pair, &v));
   PetscCall(PetscArrayzero(has, 2 * num));
   for (PetscInt e = 0; e < v->nonmortar.num_facets; ++e) has[t->leaf_body[v->nonmortar.facet_leaf[e]]] = 1;
   for (PetscInt e = 0; e < v->mortar.num_facets; ++e) has[num + t->leaf_body[v->mortar.facet_leaf[e]]] = 1;

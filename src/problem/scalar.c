@@ -8,17 +8,14 @@
 #include "problemimpl.h"
 
 /* Diagonal of the box around all bodies. */
-static PetscErrorCode Extent_Private(Problem p)
+static void Extent_Private(Problem p)
 {
-  const CoarseMesh *mesh;
+  const CoarseMesh *mesh = ForestGetCoarse(p->forest);
   PetscReal         lo[3], hi[3], square = 0;
 
-  PetscFunctionBegin;
-  PetscCall(ForestGetCoarse(p->forest, &mesh));
   ForestCoarseBox(mesh, lo, hi);
   for (PetscInt c = 0; c < 3; ++c) square += PetscSqr(hi[c] - lo[c]);
   p->extent = PetscSqrtReal(square);
-  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode ScalarsCreate_Private(Problem p)
@@ -28,7 +25,7 @@ PetscErrorCode ScalarsCreate_Private(Problem p)
 
   PetscFunctionBegin;
   PetscCall(MechanicsGetControls(p->mechanics, &p->num_controls, &boundary));
-  PetscCall(Extent_Private(p));
+  Extent_Private(p);
   PetscCall(RigidCreate_Private(p));
   p->num_scalars = p->num_controls + p->num_rigid + (p->scene->load.control == LOAD_ARC_LENGTH);
   PetscCall(PetscCalloc4(p->num_scalars, &p->scalar, p->num_controls, &p->factor, p->num_controls, &p->norm, p->num_controls, &p->measure));
@@ -97,11 +94,9 @@ PetscErrorCode ProblemSetScalars(Problem p, const PetscReal values[], Vec x)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ProblemNumScalars(Problem p, PetscInt *num)
+PetscInt ProblemNumScalars(Problem p)
 {
-  PetscFunctionBegin;
-  *num = p->num_scalars;
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return p->num_scalars;
 }
 
 PetscErrorCode ScalarsRead_Private(Problem p, Vec x)
@@ -139,7 +134,7 @@ PetscErrorCode ScalarsResidual_Private(Problem p, Vec x, PetscReal r[])
     PetscCall(MechanicsValue(b->volume ? b->volume : b->advance, &b->amplitude, origin, p->t, &target));
     r[Local_Private(p, k)] = p->factor[k] * (p->measure[k] - target * p->norm[k]);
   }
-  if (RigidLocal_Private(p) >= 0) PetscCall(RigidResidual_Private(p, r + RigidLocal_Private(p)));
+  for (PetscInt k = 0; k < p->num_rigid && RigidLocal_Private(p) >= 0; ++k) r[RigidLocal_Private(p) + k] = p->rigid[k].force - p->rigid[k].load;
   if (HasPath_Private(p)) {
     PetscCall(PathResidual_Private(p, x, &target));
     if (Local_Private(p, num) >= 0) r[Local_Private(p, num)] = target;

@@ -3,11 +3,9 @@
 
 PetscErrorCode StateCreate(Problem p, State *s)
 {
-  const ForestTables *t;
-
   PetscFunctionBegin;
   PetscCall(PetscMemzero(s, sizeof(*s)));
-  PetscCall(ForestGetTables(p->forest, &t));
+  const ForestTables *t = ForestGetTables(p->forest);
   PetscCall(ProblemCreateVector(p, &s->x));
   PetscCall(MechanicsNumPressure(p->mechanics, &s->num_pressure));
   PetscCall(PetscCalloc1(s->num_pressure, &s->pressure));
@@ -109,9 +107,6 @@ PetscErrorCode StateDestroy(State *s)
 {
   PetscFunctionBegin;
   PetscCall(VecDestroy(&s->x));
-  PetscCall(PetscFree(s->pressure));
-  PetscCall(PetscFree(s->history));
-  PetscCall(PetscFree(s->before));
-  PetscCall(PetscFree(s->leaf_order));
+  PetscCall(FreeAll(4, (void *[]){&s->pressure, &s->history, &s->before, &s->leaf_order}));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

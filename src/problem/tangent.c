@@ -96,9 +96,7 @@ PetscErrorCode ProblemTangent(Problem p, Vec x, const PetscReal pressure[], Vec 
   PetscCall(StageBegin(STAGE_ASSEMBLE));
   PetscCall(MatAssemble(p->matrix, MAT_FINAL_ASSEMBLY));
   PetscCall(StageEnd(STAGE_ASSEMBLE));
-  if (lift) {
-    PetscCall(VecAssemble(lift));
-  }
+  if (lift) PetscCall(VecAssemble(lift));
   p->lift = NULL;
   int any = *bad || failed;
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_MAX, p->comm));

@@ -19,11 +19,11 @@ static PetscErrorCode FacetsCreate_Private(Forest forest, Facets *f)
   PetscInt            nb;
 
   PetscFunctionBegin;
-  PetscCall(ForestGetCoarse(forest, &f->mesh));
-  PetscCall(ForestGetTables(forest, &f->forest));
-  f->whole = forest;
-  t        = f->forest;
-  nb       = f->mesh->num_boundaries;
+  f->mesh   = ForestGetCoarse(forest);
+  f->forest = ForestGetTables(forest);
+  f->whole  = forest;
+  t         = f->forest;
+  nb        = f->mesh->num_boundaries;
   PetscCall(PetscCalloc5(nb, &f->num_facets, nb, &f->inner, f->mesh->num_bodies * nb, &f->body_touches, nb, &f->together, f->mesh->num_cells, &f->cell_groups));
   for (PetscInt e = t->first[t->dim - 1]; e < t->first[t->dim]; ++e) {
     const PetscInt *leaf  = t->facet_leaf + 2 * (e - t->first[t->dim - 1]);
@@ -77,10 +77,9 @@ static PetscErrorCode FindGroup_Private(const CoarseMesh *m, const char *where, 
 
 PetscErrorCode SceneVertex(Forest forest, PetscInt vertex, PetscReal X[3])
 {
-  const ForestTables *t;
+  const ForestTables *t = ForestGetTables(forest);
 
   PetscFunctionBegin;
-  PetscCall(ForestGetTables(forest, &t));
   const PetscInt  leaf = t->entity_leaf[vertex];
   const PetscInt *at   = t->closure + t->closure_offset[t->first[t->dim] + leaf];
   PetscInt        i    = 0;
@@ -531,12 +530,11 @@ static PetscErrorCode Check_Private(Scene s, const Facets *f)
 
 PetscErrorCode SceneCheckMesh(Scene s, Forest forest)
 {
-  const CoarseMesh *mesh;
+  const CoarseMesh *mesh = ForestGetCoarse(forest);
   Facets            f;
   PetscErrorCode    status;
 
   PetscFunctionBegin;
-  PetscCall(ForestGetCoarse(forest, &mesh));
   PetscCall(CheckCells_Private(s, mesh)); /* before any table is indexed by bodies */
   PetscCall(MatchBodies_Private(s, mesh));
   PetscCall(SceneCheckFields(s, mesh));

@@ -55,14 +55,12 @@ static PetscErrorCode Turns_Private(Forest forest, const ForestTables *t, PetscI
 
 PetscErrorCode SceneTellChords(Scene s, Forest forest)
 {
-  const CoarseMesh   *m;
-  const ForestTables *t;
+  const CoarseMesh   *m = ForestGetCoarse(forest);
+  const ForestTables *t = ForestGetTables(forest);
   PetscInt           *last, num;
   PetscReal           cosine;
 
   PetscFunctionBegin;
-  PetscCall(ForestGetCoarse(forest, &m));
-  PetscCall(ForestGetTables(forest, &t));
   if (m->geometry_order > 1) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscMalloc1(t->first[t->dim - 1], &last));
   for (PetscInt i = 0; i < 2 * s->data.num_contacts; ++i) {

@@ -70,13 +70,11 @@ static int Compare_Private(const void *a, const void *b)
 /* What meets at the vertices and, in space, edges of the group's outer facets, by entity. */
 static PetscErrorCode Rims_Private(Forest forest, PetscInt group, PetscInt *num, Rim **rim)
 {
-  const CoarseMesh   *mesh;
-  const ForestTables *t;
+  const CoarseMesh   *mesh = ForestGetCoarse(forest);
+  const ForestTables *t    = ForestGetTables(forest);
   PetscInt            room = 0;
 
   PetscFunctionBegin;
-  PetscCall(ForestGetCoarse(forest, &mesh));
-  PetscCall(ForestGetTables(forest, &t));
   for (PetscInt f = t->first[t->dim - 1]; f < t->first[t->dim]; ++f) room += t->boundary[f] >> group & 1 ? 2 * 4 : 0;
   PetscCall(PetscMalloc1(room, rim));
   *num = 0;
@@ -156,14 +154,13 @@ static PetscReal Round_Private(PetscInt num, const Rim rim[], const PetscInt oth
 
 PetscErrorCode SceneCorner(Forest forest, PetscInt group, PetscReal *corner, PetscReal *rounded, PetscReal *longest)
 {
-  const ForestTables *t;
-  PetscInt            num, *other, *first;
-  Rim                *rim;
+  PetscInt num, *other, *first;
+  Rim     *rim;
 
   PetscFunctionBegin;
-  *corner = *rounded = PETSC_INFINITY;
-  *longest           = 0;
-  PetscCall(ForestGetTables(forest, &t));
+  *corner = *rounded    = PETSC_INFINITY;
+  *longest              = 0;
+  const ForestTables *t = ForestGetTables(forest);
   if (t->dim != 2) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(Rims_Private(forest, group, &num, &rim));
   PetscCall(PetscMalloc2(num, &other, t->first[2] - t->first[1], &first));
@@ -238,14 +235,12 @@ static PetscErrorCode Colours_Private(PetscInt num, const Rim rim[], PetscInt pa
 
 PetscErrorCode SceneColourFaces(Forest forest, PetscInt group, PetscInt *num_colours, int8_t **colour)
 {
-  const ForestTables *t;
-  const CoarseMesh   *mesh;
+  const ForestTables *t    = ForestGetTables(forest);
+  const CoarseMesh   *mesh = ForestGetCoarse(forest);
   PetscInt            num, num_sides, *parent;
   Rim                *rim;
 
   PetscFunctionBegin;
-  PetscCall(ForestGetTables(forest, &t));
-  PetscCall(ForestGetCoarse(forest, &mesh));
   num_sides = 2 * t->dim * mesh->num_cells;
   PetscCall(Rims_Private(forest, group, &num, &rim));
   PetscCall(PetscMalloc1(num_sides, colour));

@@ -166,14 +166,13 @@ static PetscErrorCode Side_Private(Forest forest, const ForestTables *t, PetscIn
 /* Such a mesh hangs: what meets there is not joined. */
 static PetscErrorCode TellHanging_Private(Scene s, Forest forest, const CoarseMesh *m, const Place places[], PetscReal near)
 {
-  const ForestTables *t;
+  const ForestTables *t = ForestGetTables(forest);
   PetscInt            num, *facet, told = 0, bodies[2] = {0, 0};
   PetscReal           X[3] = {0, 0, 0};
   int8_t             *free_vertex;
   uint64_t           *groups;
 
   PetscFunctionBegin;
-  PetscCall(ForestGetTables(forest, &t));
   PetscCall(PetscCalloc2(t->first[1], &free_vertex, m->num_bodies, &groups));
   PetscCall(FreeSides_Private(t, &num, &facet, free_vertex, groups));
   for (PetscInt k = 0; k < num; ++k) {
@@ -203,13 +202,12 @@ static PetscErrorCode TellHanging_Private(Scene s, Forest forest, const CoarseMe
 
 static PetscErrorCode TellCoincident_Private(Scene s, Forest forest, const CoarseMesh *m)
 {
-  const ForestTables *t;
+  const ForestTables *t = ForestGetTables(forest);
   PetscReal           lo[3], hi[3], near;
   Coincident          c = {.num = {0, 0}};
   Place              *place;
 
   PetscFunctionBegin;
-  PetscCall(ForestGetTables(forest, &t));
   PetscCall(Places_Private(forest, t, &place));
   ForestCoarseBox(m, lo, hi);
   near = COINCIDE * PetscSqrtReal(PetscSqr(hi[0] - lo[0]) + PetscSqr(hi[1] - lo[1]) + PetscSqr(hi[2] - lo[2]));
@@ -238,10 +236,9 @@ static PetscErrorCode TellCoincident_Private(Scene s, Forest forest, const Coars
 
 PetscErrorCode SceneTellMesh(Scene s, Forest forest)
 {
-  const CoarseMesh *m;
+  const CoarseMesh *m = ForestGetCoarse(forest);
 
   PetscFunctionBegin;
-  PetscCall(ForestGetCoarse(forest, &m));
   if (m->from_simplices || s->subdivided)
     PetscCall(WarningAdd(s->comm, "the mesh is of tetrahedra, each split into 4 hexahedra: %" PetscInt_FMT " cells come of it, of worse shape than others",
                          m->num_cells));

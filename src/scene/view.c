@@ -4,11 +4,10 @@
 /* Where the facets of a boundary group are: a group of others shows here. */
 static PetscErrorCode ViewGroup_Private(PetscInt group, Forest forest, PetscViewer viewer)
 {
-  const ForestTables *t;
+  const ForestTables *t     = ForestGetTables(forest);
   PetscReal           lo[3] = {PETSC_MAX_REAL, PETSC_MAX_REAL, PETSC_MAX_REAL}, hi[3] = {-PETSC_MAX_REAL, -PETSC_MAX_REAL, -PETSC_MAX_REAL}, X[3];
 
   PetscFunctionBegin;
-  PetscCall(ForestGetTables(forest, &t));
   for (PetscInt v = 0; v < t->first[1]; ++v) {
     if (!(t->boundary[v] >> group & 1)) continue;
     PetscCall(SceneVertex(forest, v, X));
@@ -118,13 +117,11 @@ static PetscErrorCode ViewBody_Private(const BodySpec *b, PetscViewer viewer)
 /* How many cells, and where: a wrong unit of length shows here. */
 static PetscErrorCode ViewMesh_Private(const char *file, Forest forest, PetscViewer viewer)
 {
-  const ForestTables *t;
-  const CoarseMesh   *mesh;
+  const ForestTables *t    = ForestGetTables(forest);
+  const CoarseMesh   *mesh = ForestGetCoarse(forest);
   PetscReal           lo[3], hi[3];
 
   PetscFunctionBegin;
-  PetscCall(ForestGetTables(forest, &t));
-  PetscCall(ForestGetCoarse(forest, &mesh));
   ForestCoarseBox(mesh, lo, hi);
   PetscCall(PetscViewerASCIIPrintf(viewer, "  mesh %s: %" PetscInt_FMT " cells", file, t->num_leaves));
   PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_FALSE));

@@ -7,7 +7,7 @@
 static PetscErrorCode Linearise_Private(Solver s, const Iterate *it, const Form *last, PetscBool always, PetscBool *acts)
 {
   PetscFunctionBegin;
-  PetscCall(InterfaceKeepWeights(ProblemInterface(s->problem)));
+  InterfaceKeepWeights(ProblemInterface(s->problem));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

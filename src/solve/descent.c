@@ -16,12 +16,9 @@
 #define LONGEST 64
 #define DEEP 1 /* extents of a node along the surface: as deep as that it must not be lost, nor may a piece of the prescribed motion drive it in by more */
 
-PetscErrorCode SolverHasDescent(Solver s, PetscBool *yes)
+PetscBool SolverHasDescent(Solver s)
 {
-  PetscFunctionBegin;
-  PetscCall(ProblemHasEnergy(s->problem, yes));
-  if (s->saddle) *yes = PETSC_FALSE;
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return (PetscBool)(!s->saddle && ProblemHasEnergy(s->problem));
 }
 
 /* Options of the factors before they are made: all pivots are counted (inertia.c), more room. Asked for afterwards, they are none that nothing used. */
@@ -53,15 +50,13 @@ static PetscErrorCode Factors_Private(Descent *d)
 
 PetscErrorCode DescentCreate_Private(Solver s, SolverReport *report, Descent *d)
 {
-  PetscInt dofs;
-
   PetscFunctionBegin;
   PetscCall(PetscMemzero(d, sizeof(*d)));
-  PetscCall(ProblemNumDofs(s->problem, &dofs));
-  d->round_off = PETSC_MACHINE_EPSILON * PetscSqrtReal((PetscReal)dofs);
-  d->solver    = s;
-  d->problem   = s->problem;
-  d->report    = report;
+  const PetscInt dofs = ProblemNumDofs(s->problem);
+  d->round_off        = PETSC_MACHINE_EPSILON * PetscSqrtReal((PetscReal)dofs);
+  d->solver           = s;
+  d->problem          = s->problem;
+  d->report           = report;
   PetscCall(ProblemCreateVector(s->problem, &d->trial));
   PetscCall(VecDuplicateAll(d->trial, 5, (Vec *[]){&d->gradient, &d->dx, &d->lambda, &d->depth, &d->next}));
   PetscCall(ProblemCreateRightSide(s->problem, &d->lift));
@@ -89,7 +84,7 @@ static PetscErrorCode Measure_Private(Descent *d, Mat A)
   PetscFunctionBegin;
   if (d->measured) PetscFunctionReturn(PETSC_SUCCESS);
   d->measured = PETSC_TRUE;
-  PetscCall(ProblemGetBlocks(d->problem, &num_u, &num_z, &dim));
+  ProblemGetBlocks(d->problem, &num_u, &num_z, &dim);
   PetscCall(MatGetRowMaxAbs(A, d->diagonal, NULL));
   PetscCall(VecGetLocalSize(d->diagonal, &num));
   PetscCall(VecGetArray(d->diagonal, &array));
@@ -128,26 +123,14 @@ static PetscErrorCode Factor_Private(Descent *d, Mat A, PetscInt *negative)
 
 PetscErrorCode DescentApply_Private(Descent *d, PetscBool *ok)
 {
-  KSPConvergedReason reason;
-  PetscReal          norm;
-  PetscErrorCode     code;
-  PetscBool          failed;
+  PetscBool failed;
 
   PetscFunctionBegin;
-  *ok = PETSC_FALSE;
-  PetscCall(StageBegin(STAGE_SOLVE));
-  PetscCall(ErrorForesee("MUMPS in solve"));
-  code = KSPSolve(d->ksp, d->rhs, d->y);
-  PetscCall(ErrorForeseen(code, &failed));
-  PetscCall(StageEnd(STAGE_SOLVE));
-  if (failed) { /* as in linear.c */
+  PetscCall(SolverFactorSolve_Private(d->ksp, d->rhs, d->y, &failed, ok));
+  if (failed) {
     PetscCall(KSPDestroy(&d->ksp));
     PetscCall(Factors_Private(d));
-    PetscFunctionReturn(PETSC_SUCCESS);
   }
-  PetscCall(KSPGetConvergedReason(d->ksp, &reason));
-  PetscCall(VecNorm(d->y, NORM_2, &norm));
-  *ok = (PetscBool)(reason >= 0 && !PetscIsInfOrNanReal(norm));
   if (*ok) PetscCall(ProblemMeritRecover(d->problem, d->y, d->dx));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -251,7 +234,7 @@ PetscErrorCode DescentLinearise_Private(Descent *d, Vec x, PetscBool *done, Pets
 
   PetscFunctionBegin;
   PetscCall(ProblemSearchOn(d->problem, x));
-  PetscCall(InterfaceKeepSearch(ProblemInterface(d->problem)));
+  InterfaceKeepSearch(ProblemInterface(d->problem));
   PetscCall(ProblemMerit(d->problem, PENALTY, d->lambda, x, d->gradient, &d->merit, &d->status));
   *ok = (PetscBool)!d->status.bad;
   if (!*ok) PetscFunctionReturn(PETSC_SUCCESS);

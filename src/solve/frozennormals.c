@@ -7,14 +7,6 @@
 
 #define ALL_PAIRS (~(uint64_t)0)
 
-static PetscErrorCode Begin_Private(Solver s)
-{
-  PetscFunctionBegin;
-  s->last_circle  = 0;
-  s->fixed_circle = PETSC_FALSE;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 static PetscErrorCode Linearise_Private(Solver s, const Iterate *it, const Form *last, PetscBool always, PetscBool *acts)
 {
   PetscFunctionBegin;
@@ -29,15 +21,15 @@ static PetscErrorCode Linearise_Private(Solver s, const Iterate *it, const Form 
 /* One step in a circle is no reason: the next tangent often has a set that agrees, and at fixed directions convergence is linear. */
 static PetscErrorCode Correct_Private(Solver s, const Iterate *it, Vec dx, PetscBool *acts, PetscBool *again)
 {
-  const PetscBool same = (PetscBool)(s->circle && s->circle == s->last_circle);
+  const PetscBool same = (PetscBool)(s->circle && s->circle == s->course.last_circle);
 
   PetscFunctionBegin;
   if (s->form.frozen_normals == ALL_PAIRS) {
-    s->fixed_circle = (PetscBool)(s->circle != 0);
+    s->course.fixed_circle = (PetscBool)(s->circle != 0);
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  s->last_circle = s->circle;
-  if (!same || s->fixed_circle) PetscFunctionReturn(PETSC_SUCCESS);
+  s->course.last_circle = s->circle;
+  if (!same || s->course.fixed_circle) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscInfo(s->snes, "active sets go in the same circle as for the last linear step: once more at fixed directions\n"));
   s->form.frozen_normals = ALL_PAIRS;
   *acts = *again = PETSC_TRUE;
@@ -46,4 +38,4 @@ static PetscErrorCode Correct_Private(Solver s, const Iterate *it, Vec dx, Petsc
 
 const Modifier ModifierFrozenNormals = {
     "frozen_normals", "tangents at fixed directions of contact where gaps are wide against facets or active sets go in one circle twice; on: always",
-    .begin = Begin_Private, .linearise = Linearise_Private, .correct = Correct_Private};
+    .linearise = Linearise_Private, .correct = Correct_Private};

@@ -3,33 +3,24 @@
    not jump then; on: from the first iterate on. */
 #include "solveimpl.h"
 
-static PetscErrorCode Begin_Private(Solver s)
-{
-  PetscFunctionBegin;
-  s->last_norm = 0;
-  s->last_set  = 0;
-  s->grew = s->fell = s->shortened = PETSC_FALSE;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* Does the residual come and go with the same active set? Near the solution it should not grow at all, elsewhere not
    after it has grown and fallen, if it is below that after the first iteration. A step that was too far would have made
    it grow: it is shortened at the jump, again and again. */
 static PetscErrorCode ComesAndGoes_Private(Solver s, const Iterate *it, PetscBool *yes)
 {
-  const PetscReal last = s->last_norm;
+  const PetscReal last = s->course.last_norm;
   PetscReal       pending;
 
   PetscFunctionBegin;
   PetscCall(ProblemPending(s->problem, &pending));
-  const PetscBool grows = (PetscBool)(it->norm >= last || s->shortened);
-  const PetscBool same  = (PetscBool)(last > SolverTolerance_Private(s, &s->report->status) && it->set == s->last_set);
-  *yes                  = (PetscBool)(same && grows && (last <= PetscSqrtReal(s->rtol) * s->report->status.scale || (s->fell && last < s->first_norm)));
-  s->grew               = (PetscBool)(s->grew || (same && grows));
-  s->fell               = (PetscBool)(s->fell || (s->grew && it->norm < last));
-  s->last_norm          = pending == 0 ? it->norm : 0;
-  s->last_set           = it->set;
-  s->shortened          = PETSC_FALSE;
+  const PetscBool grows = (PetscBool)(it->norm >= last || s->course.shortened);
+  const PetscBool same  = (PetscBool)(last > SolverTolerance_Private(s, &s->report->status) && it->set == s->course.last_set);
+  *yes           = (PetscBool)(same && grows && (last <= PetscSqrtReal(s->rtol) * s->report->status.scale || (s->course.fell && last < s->course.first_norm)));
+  s->course.grew = (PetscBool)(s->course.grew || (same && grows));
+  s->course.fell = (PetscBool)(s->course.fell || (s->course.grew && it->norm < last));
+  s->course.last_norm = pending == 0 ? it->norm : 0;
+  s->course.last_set  = it->set;
+  s->course.shortened = PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -44,11 +35,11 @@ static PetscErrorCode Verdict_Private(Solver s, Iterate *it, PetscBool always, P
   if (!*acts) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscInfo(s->snes, "residuals come and go: the segmentation of mortar sides is frozen in forces from here on\n"));
   s->form.frozen_segmentation = PETSC_TRUE;
-  s->best_norm                = PETSC_MAX_REAL;
+  s->course.best_norm         = PETSC_MAX_REAL;
   PetscCall(ProblemSetForm(s->problem, &s->form));
   PetscCall(SolverLook_Private(s, it));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 const Modifier ModifierFrozenSegmentation = {"frozen_segmentation", "contact forces of a frozen segmentation where residuals come and go; on: always",
-                                             .begin = Begin_Private, .verdict = Verdict_Private};
+                                             .verdict = Verdict_Private};

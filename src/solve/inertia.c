@@ -8,14 +8,13 @@
    incompressible material and where unstable equilibria give way to stable ones, on any number of ranks. */
 PetscErrorCode SolverInertiaSetUp_Private(Solver s)
 {
-  const SceneData *scene;
-  PetscBool        incompressible, energy, set;
+  PetscBool set;
 
   PetscFunctionBegin;
-  s->negative = -1;
-  PetscCall(ProblemGetScene(s->problem, &scene));
-  PetscCall(ProblemIsIncompressible(s->problem, &incompressible));
-  PetscCall(ProblemHasEnergy(s->problem, &energy));
+  s->negative                     = -1;
+  const SceneData *scene          = ProblemGetScene(s->problem);
+  const PetscBool  incompressible = ProblemIsIncompressible(s->problem);
+  const PetscBool  energy         = ProblemHasEnergy(s->problem);
   PetscCall(PetscOptionsHasName(NULL, NULL, "-mat_mumps_icntl_13", &set));
   if ((incompressible || (energy && scene->load.stable)) && !set) PetscCall(PetscOptionsSetValue(NULL, "-mat_mumps_icntl_13", "1"));
   PetscCall(PetscOptionsHasName(NULL, NULL, "-mat_mumps_icntl_13", &set)); /* ours: not one that nothing used, where nothing is factorised */

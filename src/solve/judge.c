@@ -15,7 +15,7 @@ PetscReal SolverTolerance_Private(const Solver s, const ProblemStatus *status)
    -snes_atol or -snes_rtol ask. */
 static PetscBool Small_Private(const Solver s, const ProblemStatus *status, PetscReal norm)
 {
-  return (PetscBool)(norm <= PetscMax(SolverTolerance_Private(s, status), PetscMax(s->snes->abstol, s->snes->rtol * s->first_norm)));
+  return (PetscBool)(norm <= PetscMax(SolverTolerance_Private(s, status), PetscMax(s->snes->abstol, s->snes->rtol * s->course.first_norm)));
 }
 
 static PetscBool KeepsVolume_Private(const Solver s)

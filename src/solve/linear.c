@@ -11,9 +11,12 @@
 #define MOST_OPERATIONS 36e3 /* of a factorisation for each entry of the matrix: from there on multigrid is faster, with order 1 */
 
 /* What factorises the tangent, in the precision that serves. */
-static PetscErrorCode Kind_Private(Solver s, PC pc)
+static PetscErrorCode Kind_Private(Solver s)
 {
+  PC pc;
+
   PetscFunctionBegin;
+  PetscCall(KSPGetPC(s->ksp, &pc));
   if (s->single) {
     PetscCall(SingleFactorSet_Private(pc, s->symmetric));
     PetscFunctionReturn(PETSC_SUCCESS);
@@ -27,47 +30,41 @@ static PetscErrorCode Kind_Private(Solver s, PC pc)
 static PetscErrorCode UseSingle_Private(Solver s)
 {
   PetscBool type, package;
-  PetscInt  num_u, num_z, dim, dofs;
+  PetscInt  num_u, num_z, dim;
 
   PetscFunctionBegin;
   PetscCheckInput(s->factor != FACTOR_SINGLE || SingleFactorExists_Private(), "-solve_factor single: this build has no MUMPS in single precision");
   PetscCall(PetscOptionsHasName(NULL, NULL, "-pc_type", &type));
   PetscCall(PetscOptionsHasName(NULL, NULL, "-pc_factor_mat_solver_type", &package));
   PetscCheckInput(s->factor != FACTOR_SINGLE || !(type || package), "-solve_factor single and -pc_type or -pc_factor_mat_solver_type exclude each other");
-  PetscCall(ProblemGetBlocks(s->problem, &num_u, &num_z, &dim));
-  PetscCall(ProblemNumDofs(s->problem, &dofs));
-  s->single = (PetscBool)(s->factor == FACTOR_AUTO && dim == 3 && dofs >= SOLVER_LARGE && SingleFactorExists_Private() && !type && !package);
+  ProblemGetBlocks(s->problem, &num_u, &num_z, &dim);
+  const PetscInt dofs = ProblemNumDofs(s->problem);
+  s->single           = (PetscBool)(s->factor == FACTOR_AUTO && dim == 3 && dofs >= SOLVER_LARGE && SingleFactorExists_Private() && !type && !package);
   if (s->factor == FACTOR_SINGLE) s->single = PETSC_TRUE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SolverLinear_Private(Solver s)
 {
-  KSP ksp;
-  PC  pc;
-
   PetscFunctionBegin;
-  PetscCall(SNESGetKSP(s->snes, &ksp));
-  PetscCall(KSPGetPC(ksp, &pc));
-  PetscCall(KSPSetType(ksp, KSPPREONLY));
+  PetscCall(SNESGetKSP(s->snes, &s->ksp));
+  PetscCall(KSPSetType(s->ksp, KSPPREONLY));
   PetscCall(UseSingle_Private(s));
   PetscCall(SolverInertiaSetUp_Private(s));
-  PetscCall(Kind_Private(s, pc));
+  PetscCall(Kind_Private(s));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SolverUnsymmetric_Private(Solver s)
 {
-  KSP ksp;
-  PC  pc;
+  PC pc;
 
   PetscFunctionBegin;
   PetscCall(PetscInfo(s->snes, "forces hold lines of a contact face, the tangent is not symmetric: factors are LU from here on\n"));
   s->symmetric = s->factored = PETSC_FALSE;
-  PetscCall(SNESGetKSP(s->snes, &ksp));
-  PetscCall(KSPGetPC(ksp, &pc));
+  PetscCall(KSPGetPC(s->ksp, &pc));
   PetscCall(PCReset(pc));
-  PetscCall(Kind_Private(s, pc));
+  PetscCall(Kind_Private(s));
   PetscCall(PCSetFromOptions(pc));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -114,25 +111,20 @@ static PetscErrorCode IsFinite_Private(Mat A, PetscBool *yes)
 static PetscErrorCode Factor_Private(Solver s, Mat A)
 {
   PCFailedReason failed;
-  KSP            ksp;
+  PetscBool      again;
   PC             pc;
 
   PetscFunctionBegin;
   PetscCall(StageBegin(STAGE_FACTOR));
   ++s->report->factorisations;
-  PetscCall(SNESGetKSP(s->snes, &ksp));
-  PetscCall(KSPSetOperators(ksp, A, A));
-  PetscCall(KSPSetUp(ksp));
-  PetscCall(KSPGetPC(ksp, &pc));
-  PetscCall(PCGetFailedReason(pc, &failed));
-  for (PetscBool again = (PetscBool)(failed != PC_NOERROR); again;) {
-    PetscCall(MoreWorkspace_Private(pc, &again));
-    if (!again) break;
-    PetscCall(KSPSetOperators(ksp, A, A));
-    PetscCall(KSPSetUp(ksp));
+  PetscCall(KSPGetPC(s->ksp, &pc));
+  do {
+    PetscCall(KSPSetOperators(s->ksp, A, A));
+    PetscCall(KSPSetUp(s->ksp));
     PetscCall(PCGetFailedReason(pc, &failed));
     again = (PetscBool)(failed != PC_NOERROR);
-  }
+    if (again) PetscCall(MoreWorkspace_Private(pc, &again));
+  } while (again);
   s->no_memory = (PetscBool)(failed == PC_FACTOR_OUTMEMORY);
   PetscCall(SolverInertia_Private(s, pc));
   PetscCall(StageEnd(STAGE_FACTOR));
@@ -140,37 +132,42 @@ static PetscErrorCode Factor_Private(Solver s, Mat A)
 }
 
 /* MUMPS out of memory, or off the rails, while it solves: PETSc makes an error of it, which here is a solution that is not found. The preconditioner was left
-   in the middle of its work: another takes its place. */
-static PetscErrorCode Solve_Private(Solver s, Vec rhs, Vec x, PetscBool *ok)
+   in the middle of its work: another has to take its place. */
+PetscErrorCode SolverFactorSolve_Private(KSP ksp, Vec rhs, Vec x, PetscBool *failed, PetscBool *ok)
 {
   PetscErrorCode     code;
   KSPConvergedReason reason;
   PetscReal          norm;
-  PetscBool          failed;
-  KSP                ksp;
-  PC                 pc;
 
   PetscFunctionBegin;
-  PetscCall(SNESGetKSP(s->snes, &ksp));
+  *ok = PETSC_FALSE;
   PetscCall(StageBegin(STAGE_SOLVE));
   PetscCall(ErrorForesee("MUMPS in solve"));
   code = KSPSolve(ksp, rhs, x);
-  PetscCall(ErrorForeseen(code, &failed));
+  PetscCall(ErrorForeseen(code, failed));
   PetscCall(StageEnd(STAGE_SOLVE));
-  *ok = PETSC_FALSE;
-  if (failed) {
-    PetscCall(PetscInfo(s->snes, "MUMPS failed in the solve\n"));
-    PetscCall(KSPDestroy(&s->refine));
-    PetscCall(PCCreate(PetscObjectComm((PetscObject)ksp), &pc));
-    PetscCall(KSPSetPC(ksp, pc));
-    PetscCall(Kind_Private(s, pc));
-    PetscCall(PCSetFromOptions(pc));
-    PetscCall(PCDestroy(&pc));
-    PetscFunctionReturn(PETSC_SUCCESS);
-  }
+  if (*failed) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(KSPGetConvergedReason(ksp, &reason));
   PetscCall(VecNorm(x, NORM_2, &norm));
   *ok = (PetscBool)(reason >= 0 && !PetscIsInfOrNanReal(norm));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Solve_Private(Solver s, Vec rhs, Vec x, PetscBool *ok)
+{
+  PetscBool failed;
+  PC        pc;
+
+  PetscFunctionBegin;
+  PetscCall(SolverFactorSolve_Private(s->ksp, rhs, x, &failed, ok));
+  if (!failed) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscInfo(s->snes, "MUMPS failed in the solve\n"));
+  PetscCall(KSPDestroy(&s->refine));
+  PetscCall(PCCreate(PetscObjectComm((PetscObject)s->ksp), &pc));
+  PetscCall(KSPSetPC(s->ksp, pc));
+  PetscCall(Kind_Private(s));
+  PetscCall(PCSetFromOptions(pc));
+  PetscCall(PCDestroy(&pc));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -216,13 +213,11 @@ static PetscErrorCode IsSolution_Private(Mat A, Vec b, Vec x, PetscReal rtol, Pe
 static PetscErrorCode Refine_Private(Solver s, Mat A, Vec rhs, PetscReal rtol, Vec x, PetscBool *ok)
 {
   KSPConvergedReason reason;
-  KSP                ksp;
   PC                 pc;
 
   PetscFunctionBegin;
   PetscCall(StageBegin(STAGE_SOLVE));
-  PetscCall(SNESGetKSP(s->snes, &ksp));
-  PetscCall(KSPGetPC(ksp, &pc));
+  PetscCall(KSPGetPC(s->ksp, &pc));
   if (!s->refine) {
     PetscCall(KSPCreate(PetscObjectComm((PetscObject)A), &s->refine));
     PetscCall(KSPSetOptionsPrefix(s->refine, "again_"));
@@ -246,13 +241,11 @@ static PetscErrorCode Refine_Private(Solver s, Mat A, Vec rhs, PetscReal rtol, V
 /* Factorise A and solve. Where a factor in single precision does not serve, those in double take over for good. */
 static PetscErrorCode Direct_Private(Solver s, Mat A, Vec rhs, Vec x, PetscBool *ok)
 {
-  KSP ksp;
-  PC  pc;
+  PC pc;
 
   PetscFunctionBegin;
   PetscCall(IsFinite_Private(A, ok));
   if (!*ok) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SNESGetKSP(s->snes, &ksp));
   if (s->single) {
     PetscCall(Factor_Private(s, A));
     PetscCall(Refine_Private(s, A, rhs, FRESH_RTOL, x, ok));
@@ -260,8 +253,8 @@ static PetscErrorCode Direct_Private(Solver s, Mat A, Vec rhs, Vec x, PetscBool 
     PetscCall(PetscInfo(s->snes, "a factor in single precision does not serve: double from here on\n"));
     ++s->report->single_failures;
     s->single = PETSC_FALSE;
-    PetscCall(KSPGetPC(ksp, &pc));
-    PetscCall(Kind_Private(s, pc));
+    PetscCall(Kind_Private(s));
+    PetscCall(KSPGetPC(s->ksp, &pc));
     PetscCall(PCSetFromOptions(pc));
   }
   PetscCall(Factor_Private(s, A));
@@ -282,12 +275,10 @@ static PetscErrorCode Operations_Private(Solver s, Mat A, PetscReal *operations)
   PetscBool     type, package;
   MatFactorInfo info;
   Mat           F;
-  KSP           ksp;
   PC            pc;
 
   PetscFunctionBegin;
-  PetscCall(SNESGetKSP(s->snes, &ksp));
-  PetscCall(KSPGetPC(ksp, &pc));
+  PetscCall(KSPGetPC(s->ksp, &pc));
   if (s->single) {
     PetscCall(SingleFactorOperations_Private(pc, A, operations));
     PetscFunctionReturn(PETSC_SUCCESS);
@@ -311,7 +302,6 @@ static PetscErrorCode Choose_Private(Solver s, Mat A, PetscBool *ok)
 {
   PetscReal operations;
   MatInfo   info;
-  KSP       ksp;
   PC        pc;
 
   PetscFunctionBegin;
@@ -325,8 +315,7 @@ static PetscErrorCode Choose_Private(Solver s, Mat A, PetscBool *ok)
   const PetscBool multigrid = (PetscBool)(operations > MOST_OPERATIONS * info.nz_used / (s->order > 1 ? 3 : 1));
   if (multigrid) PetscCall(SaddleCreate_Private(s->problem, s->multigrid, &s->saddle));
   if (multigrid && s->single) {
-    PetscCall(SNESGetKSP(s->snes, &ksp));
-    PetscCall(KSPGetPC(ksp, &pc));
+    PetscCall(KSPGetPC(s->ksp, &pc));
     PetscCall(SingleFactorForget_Private(pc));
   }
   PetscCall(StageEnd(STAGE_FACTOR));

@@ -67,18 +67,16 @@ static PetscErrorCode End_Private(Solver s)
 }
 
 /* Not for bodies with an energy that nothing touches, glued or not: a load that carries them away, or past a limit point, is told by steps that fail. */
-static PetscErrorCode Applies_Private(Solver s, PetscBool *yes)
+static void Applies_Private(Solver s, PetscBool *yes)
 {
   const SceneData *scene;
   PetscBool        energy, touched = PETSC_FALSE;
 
-  PetscFunctionBegin;
-  PetscCall(ProblemGetScene(s->problem, &scene));
+  scene = ProblemGetScene(s->problem);
   for (PetscInt i = 0; i < scene->num_contacts; ++i) touched = (PetscBool)(touched || scene->contacts[i].law != CONTACT_TIED);
-  PetscCall(ProblemIsSymmetric(s->problem, &energy));
+  energy = ProblemIsSymmetric(s->problem);
   energy = (PetscBool)(energy && !MechanicsIsPlastic(&scene->mechanics));
   *yes   = (PetscBool)(touched || !energy);
-  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static PetscErrorCode Shorten_Private(Solver s, const Iterate *it, Vec dx, PetscReal *step, PetscBool *acts)
@@ -88,12 +86,12 @@ static PetscErrorCode Shorten_Private(Solver s, const Iterate *it, Vec dx, Petsc
   PetscFunctionBegin;
   PetscCall(VecNorm(it->r, NORM_2, &norm));
   if (norm <= LITTLE * it->norm) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(Applies_Private(s, acts));
+  Applies_Private(s, acts);
   if (!*acts) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(End_Private(s));
   PetscCall(TooFar_Private(s, it, dx, *step, g, acts));
   const PetscReal first = g[0];
-  s->shortened          = *acts;
+  s->course.shortened   = *acts;
   for (PetscInt trial = 0; trial < TRIALS && *acts; ++trial) {
     *step = SolverInside_Private(at, g);
     PetscCall(PetscInfo(s->snes, "step %g goes too far, work %g after %g: %g\n", (double)at[1], (double)g[1], (double)first, (double)*step));

@@ -24,14 +24,6 @@ const Modifier *SolverModifier_Private(PetscInt i)
   return Modifiers[i];
 }
 
-PetscErrorCode ModifiersBegin_Private(Solver s)
-{
-  PetscFunctionBegin;
-  for (PetscInt i = 0; i < NUM; ++i)
-    if (s->mode[i] != MODIFIER_OFF && Modifiers[i]->begin) PetscCall(Modifiers[i]->begin(s));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode ModifiersLinearise_Private(Solver s, const Iterate *it)
 {
   const Form last = s->form;

@@ -26,8 +26,7 @@ static uint64_t Circle_Private(const Solver s, PetscInt last)
   return 0;
 }
 
-/* again: the matrix has been factorised with other rows of this linearisation; settled: the last pass changed no state. */
-static PetscErrorCode Passes_Private(Solver s, PetscBool again, Vec dx, PetscBool *settled)
+PetscErrorCode SolverActiveSetSolve_Private(Solver s, PetscBool again, Vec dx, PetscBool *settled)
 {
   PetscInt changed = 1;
 
@@ -53,15 +52,6 @@ static PetscErrorCode Passes_Private(Solver s, PetscBool again, Vec dx, PetscBoo
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SolverActiveSetSolve_Private(Solver s, Vec dx)
-{
-  PetscBool settled;
-
-  PetscFunctionBegin;
-  PetscCall(Passes_Private(s, PETSC_FALSE, dx, &settled));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* What friction bears is a share of pressures. At first touch there are none: where states go by those of the nodes that happen to be first, they never settle
    on slender bodies. So the nodes that press are found as without friction, and then who sticks and who slips. What nothing but friction holds may not settle
    so: then both at once. */
@@ -70,13 +60,13 @@ static PetscErrorCode PressuresFirst_Private(Solver s, Vec dx, PetscBool *settle
   PetscInt changed;
 
   PetscFunctionBegin;
-  PetscCall(Passes_Private(s, PETSC_FALSE, dx, settled));
+  PetscCall(SolverActiveSetSolve_Private(s, PETSC_FALSE, dx, settled));
   s->form.pressures_first = PETSC_FALSE;
   if (!*settled || s->no_solution) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ProblemSetForm(s->problem, &s->form));
   PetscCall(ProblemSwitchActiveSet(s->problem, dx, s->rhs, &changed));
   s->report->set_changes += changed;
-  if (changed) PetscCall(Passes_Private(s, PETSC_TRUE, dx, settled));
+  if (changed) PetscCall(SolverActiveSetSolve_Private(s, PETSC_TRUE, dx, settled));
   *settled = PETSC_TRUE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -84,20 +74,19 @@ static PetscErrorCode PressuresFirst_Private(Solver s, Vec dx, PetscBool *settle
 /* The tangent at an iterate in the form chosen, and the linear step. */
 static PetscErrorCode Linearise_Private(Solver s, const Iterate *it, Vec dx)
 {
-  PetscBool bad, symmetric, settled;
+  PetscBool bad, settled;
 
   PetscFunctionBegin;
   ++s->report->iterations;
   PetscCall(VecZeroEntries(s->lift));
   PetscCall(ProblemSetForm(s->problem, &s->form));
   PetscCall(ProblemTangent(s->problem, it->x, s->pressure, s->lift, &bad));
-  PetscCall(ProblemGetSymmetric(s->problem, &symmetric));
-  if (s->symmetric && !symmetric) PetscCall(SolverUnsymmetric_Private(s));
+  if (s->symmetric && !ProblemGetSymmetric(s->problem)) PetscCall(SolverUnsymmetric_Private(s));
   s->no_solution = bad;
   if (bad) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ProblemRightSide(s->problem, it->r, s->lift, s->rhs));
   if (!s->form.pressures_first) {
-    PetscCall(SolverActiveSetSolve_Private(s, dx));
+    PetscCall(SolverActiveSetSolve_Private(s, PETSC_FALSE, dx, &settled));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   PetscCall(PressuresFirst_Private(s, dx, &settled));
@@ -133,7 +122,7 @@ static PetscErrorCode Move_Private(Solver s, const Iterate *it, Vec dx)
     PetscCall(ProblemStepMove(s->problem, dx, step, PETSC_FALSE, it->x));
     PetscCall(SNESComputeFunction(s->snes, it->x, it->r));
     if (!s->report->status.bad) break;
-    ++s->halvings;
+    ++s->course.halvings;
     PetscCall(PetscInfo(s->snes, "step %g leaves the domain\n", (double)step));
   }
   if (!s->report->status.bad) PetscCall(ModifiersMoved_Private(s, it, dx, step));
@@ -143,14 +132,12 @@ static PetscErrorCode Move_Private(Solver s, const Iterate *it, Vec dx)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode Finish_Private(Solver s, SNESConvergedReason reason, const char *words)
+static void Finish_Private(Solver s, SNESConvergedReason reason, const char *words)
 {
-  PetscFunctionBegin;
   s->snes->reason      = reason;
   s->report->converged = (PetscBool)(reason > 0);
   s->report->unstable  = s->negative > 0 ? 1 : s->negative;
   s->report->reason    = words;
-  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Norm and active set of an iterate whose residual is there. */
@@ -171,18 +158,18 @@ static PetscErrorCode Judge_Private(Solver s, Iterate *it)
   PetscFunctionBegin;
   PetscCall(SolverConverged_Private(s, it, &reason));
   if (reason > 0)
-    PetscCall(Finish_Private(s, reason, ""));
+    Finish_Private(s, reason, "");
   else if (it->trouble)
-    PetscCall(Finish_Private(s, it->reason, SolverWords_Private(s, it->norm, it->trouble)));
+    Finish_Private(s, it->reason, SolverWords_Private(s, it->norm, it->trouble));
   else if (it->number == snes->max_its)
-    PetscCall(Finish_Private(s, SNES_DIVERGED_MAX_IT, SolverWords_Private(s, it->norm, "Newton did not converge within -snes_max_it iterations")));
+    Finish_Private(s, SNES_DIVERGED_MAX_IT, SolverWords_Private(s, it->norm, "Newton did not converge within -snes_max_it iterations"));
   else if (snes->max_funcs >= 0 && snes->nfuncs >= snes->max_funcs)
-    PetscCall(Finish_Private(s, SNES_DIVERGED_FUNCTION_COUNT, "Newton did not converge within -snes_max_funcs residuals"));
+    Finish_Private(s, SNES_DIVERGED_FUNCTION_COUNT, "Newton did not converge within -snes_max_funcs residuals");
   else if (PetscIsInfOrNanReal(it->norm))
-    PetscCall(Finish_Private(s, SNES_DIVERGED_FNORM_NAN, "the Newton residual is no number"));
+    Finish_Private(s, SNES_DIVERGED_FNORM_NAN, "the Newton residual is no number");
   else {
     PetscCall(StopAsked(PetscObjectComm((PetscObject)snes), &s->report->stopped));
-    if (s->report->stopped) PetscCall(Finish_Private(s, SNES_DIVERGED_MAX_IT, "the run was asked to stop"));
+    if (s->report->stopped) Finish_Private(s, SNES_DIVERGED_MAX_IT, "the run was asked to stop");
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -193,9 +180,9 @@ static PetscErrorCode Iterate_Private(Solver s, const Iterate *it, Vec dx)
   PetscCall(Direction_Private(s, it, dx));
   if (!s->no_solution) PetscCall(Move_Private(s, it, dx));
   if (s->no_solution)
-    PetscCall(Finish_Private(s, SNES_DIVERGED_LINEAR_SOLVE, s->no_memory ? "out of memory for a factor of the tangent" : "the tangent is singular"));
+    Finish_Private(s, SNES_DIVERGED_LINEAR_SOLVE, s->no_memory ? "out of memory for a factor of the tangent" : "the tangent is singular");
   else if (s->report->status.bad)
-    PetscCall(Finish_Private(s, SNES_DIVERGED_FUNCTION_DOMAIN, "every step along the Newton direction inverts a cell"));
+    Finish_Private(s, SNES_DIVERGED_FUNCTION_DOMAIN, "every step along the Newton direction inverts a cell");
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -207,19 +194,17 @@ static PetscErrorCode SNESSolve_ContactNewton(SNES snes)
   PetscFunctionBegin;
   PetscCall(SNESGetApplicationContext(snes, &s));
   snes->reason   = SNES_CONVERGED_ITERATING;
-  s->halvings    = 0;
+  s->course      = (Course){.best_norm = PETSC_MAX_REAL};
   s->negative    = -1;
-  s->first_norm  = 0;
   s->no_solution = PETSC_FALSE;
-  PetscCall(ModifiersBegin_Private(s));
   PetscCall(ProblemSearch(s->problem, it.x));
   PetscCall(SNESComputeFunction(snes, it.x, it.r));
-  if (s->report->status.bad) PetscCall(Finish_Private(s, SNES_DIVERGED_FUNCTION_DOMAIN, "the start of the step has an inverted cell"));
+  if (s->report->status.bad) Finish_Private(s, SNES_DIVERGED_FUNCTION_DOMAIN, "the start of the step has an inverted cell");
   while (snes->reason == SNES_CONVERGED_ITERATING) {
     snes->iter = it.number;
     PetscCall(SolverLook_Private(s, &it));
     PetscCall(ModifiersVerdict_Private(s, &it));
-    if (it.number == 1) s->first_norm = it.norm; /* the first iterate carries the whole prescribed motion */
+    if (it.number == 1) s->course.first_norm = it.norm; /* the first iterate carries the whole prescribed motion */
     snes->norm          = it.norm;
     s->report->residual = it.norm;
     s->report->scale    = s->report->status.scale;

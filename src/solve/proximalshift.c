@@ -11,8 +11,8 @@ static PetscErrorCode Linearise_Private(Solver s, const Iterate *it, const Form 
 
   PetscFunctionBegin;
   s->form.proximal = 1;
-  if (it->number > 0 && digits && !always) s->form.proximal = PetscMax(LEAST, PetscMin(1, it->norm / s->first_norm));
-  PetscCall(ProblemHasFreeBody(s->problem, acts));
+  if (it->number > 0 && digits && !always) s->form.proximal = PetscMax(LEAST, PetscMin(1, it->norm / s->course.first_norm));
+  *acts = ProblemHasFreeBody(s->problem);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

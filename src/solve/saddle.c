@@ -25,19 +25,12 @@ struct _p_Saddle {
   PetscInt      iterations, first;                /* of the last solve, of the first one with this hierarchy (0: none yet) */
 };
 
-static PetscErrorCode Blocks_Private(Saddle s, Vec x, Vec *u, Vec *z)
+/* The blocks of a vector, lent or (restore) given back. */
+static PetscErrorCode Blocks_Private(Saddle s, Vec x, PetscBool restore, Vec *u, Vec *z)
 {
   PetscFunctionBegin;
-  PetscCall(VecGetSubVector(x, s->is_u, u));
-  PetscCall(VecGetSubVector(x, s->is_z, z));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode BlocksRestore_Private(Saddle s, Vec x, Vec *u, Vec *z)
-{
-  PetscFunctionBegin;
-  PetscCall(VecRestoreSubVector(x, s->is_u, u));
-  PetscCall(VecRestoreSubVector(x, s->is_z, z));
+  PetscCall((restore ? VecRestoreSubVector : VecGetSubVector)(x, s->is_u, u));
+  PetscCall((restore ? VecRestoreSubVector : VecGetSubVector)(x, s->is_z, z));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -63,15 +56,15 @@ static PetscErrorCode Operator_Private(Mat A, Vec x, Vec y)
 
   PetscFunctionBegin;
   PetscCall(MatShellGetContext(A, &s));
-  PetscCall(Blocks_Private(s, x, &xu, &xz));
-  PetscCall(Blocks_Private(s, y, &yu, &yz));
+  PetscCall(Blocks_Private(s, x, PETSC_FALSE, &xu, &xz));
+  PetscCall(Blocks_Private(s, y, PETSC_FALSE, &yu, &yz));
   PetscCall(MatMult(s->K, xu, yu));
   PetscCall(AddForces_Private(s, xz, yu));
   PetscCall(MatMult(s->C, xz, yz));
   PetscCall(MatMultAdd(s->B, xu, yz, yz));
   PetscCall(VecPointwiseMult(yz, yz, s->scale));
-  PetscCall(BlocksRestore_Private(s, x, &xu, &xz));
-  PetscCall(BlocksRestore_Private(s, y, &yu, &yz));
+  PetscCall(Blocks_Private(s, x, PETSC_TRUE, &xu, &xz));
+  PetscCall(Blocks_Private(s, y, PETSC_TRUE, &yu, &yz));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -82,16 +75,16 @@ static PetscErrorCode Precondition_Private(PC pc, Vec x, Vec y)
 
   PetscFunctionBegin;
   PetscCall(PCShellGetContext(pc, &s));
-  PetscCall(Blocks_Private(s, x, &xu, &xz));
-  PetscCall(Blocks_Private(s, y, &yu, &yz));
+  PetscCall(Blocks_Private(s, x, PETSC_FALSE, &xu, &xz));
+  PetscCall(Blocks_Private(s, y, PETSC_FALSE, &yu, &yz));
   PetscCall(VecPointwiseDivide(yz, xz, s->S));
   PetscCall(VecPointwiseDivide(yz, yz, s->scale));
   PetscCall(VecCopy(xu, s->work_u)); /* xu - F yz, yz = -S^-1 xz */
   PetscCall(AddForces_Private(s, yz, s->work_u));
   PetscCall(VecScale(yz, -1));
   PetscCall(MultigridApply_Private(s->multigrid, s->work_u, yu));
-  PetscCall(BlocksRestore_Private(s, x, &xu, &xz));
-  PetscCall(BlocksRestore_Private(s, y, &yu, &yz));
+  PetscCall(Blocks_Private(s, x, PETSC_TRUE, &xu, &xz));
+  PetscCall(Blocks_Private(s, y, PETSC_TRUE, &yu, &yz));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -102,7 +95,7 @@ static PetscErrorCode Create_Private(Saddle s, Mat A)
   Vec      x;
 
   PetscFunctionBegin;
-  PetscCall(ProblemGetBlocks(s->problem, &num_u, &num_z, &dim));
+  ProblemGetBlocks(s->problem, &num_u, &num_z, &dim);
   PetscCall(MatGetOwnershipRange(A, &first, &last));
   PetscCall(ISCreateStride(PetscObjectComm((PetscObject)A), num_u, first, 1, &s->is_u));
   PetscCall(ISCreateStride(PetscObjectComm((PetscObject)A), num_z, first + num_u, 1, &s->is_z));
@@ -312,13 +305,13 @@ PetscErrorCode SaddleSolve_Private(Saddle s, Vec rhs, PetscReal rtol, PetscBool 
 
   PetscFunctionBegin;
   PetscCall(VecCopy(rhs, s->rhs));
-  PetscCall(Blocks_Private(s, s->rhs, &u, &z));
+  PetscCall(Blocks_Private(s, s->rhs, PETSC_FALSE, &u, &z));
   PetscCall(VecDuplicate(z, &weighted));
   PetscCall(VecPointwiseMult(weighted, s->G, z));
   PetscCall(MatMultTransposeAdd(s->B, weighted, u, u));
   PetscCall(VecDestroy(&weighted));
   PetscCall(VecPointwiseMult(z, z, s->scale));
-  PetscCall(BlocksRestore_Private(s, s->rhs, &u, &z));
+  PetscCall(Blocks_Private(s, s->rhs, PETSC_TRUE, &u, &z));
   PetscCall(KSPSetTolerances(s->ksp, rtol, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT));
   PetscCall(KSPSetInitialGuessNonzero(s->ksp, guess));
   PetscCall(KSPSolve(s->ksp, s->rhs, x));

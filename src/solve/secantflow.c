@@ -9,21 +9,12 @@
    solve that begins elastic because one that began as flow has failed has it from its first iterate on. */
 #include "solveimpl.h"
 
-static PetscErrorCode Begin_Private(Solver s)
-{
-  PetscFunctionBegin;
-  s->flow_start = 0;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode IsPlastic_Private(Solver s, PetscBool *yes)
+static void IsPlastic_Private(Solver s, PetscBool *yes)
 {
   const SceneData *scene;
 
-  PetscFunctionBegin;
-  PetscCall(ProblemGetScene(s->problem, &scene));
-  *yes = MechanicsIsPlastic(&scene->mechanics);
-  PetscFunctionReturn(PETSC_SUCCESS);
+  scene = ProblemGetScene(s->problem);
+  *yes  = MechanicsIsPlastic(&scene->mechanics);
 }
 
 static PetscErrorCode Linearise_Private(Solver s, const Iterate *it, const Form *last, PetscBool always, PetscBool *acts)
@@ -31,14 +22,14 @@ static PetscErrorCode Linearise_Private(Solver s, const Iterate *it, const Form 
   PetscBool plastic;
 
   PetscFunctionBegin;
-  PetscCall(IsPlastic_Private(s, &plastic));
-  if (plastic && s->swap && it->number == 1) s->flow_start = it->norm;
-  if (s->flow_start == 0) PetscFunctionReturn(PETSC_SUCCESS);
-  s->form.secant = PetscSqr(PetscSqr(it->norm / s->flow_start));
+  IsPlastic_Private(s, &plastic);
+  if (plastic && s->swap && it->number == 1) s->course.flow_start = it->norm;
+  if (s->course.flow_start == 0) PetscFunctionReturn(PETSC_SUCCESS);
+  s->form.secant = PetscSqr(PetscSqr(it->norm / s->course.flow_start));
   *acts          = (PetscBool)(s->step < 1 || s->form.secant > last->secant);
   if (!*acts) PetscFunctionReturn(PETSC_SUCCESS);
-  s->flow_start  = it->norm;
-  s->form.secant = 1;
+  s->course.flow_start = it->norm;
+  s->form.secant       = 1;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -47,14 +38,14 @@ static PetscErrorCode Shorten_Private(Solver s, const Iterate *it, Vec dx, Petsc
   PetscBool plastic;
 
   PetscFunctionBegin;
-  PetscCall(IsPlastic_Private(s, &plastic));
-  if (!plastic || s->flow_start > 0 || *step == 1) PetscFunctionReturn(PETSC_SUCCESS);
-  s->flow_start = it->norm;
-  *step         = 0;
+  IsPlastic_Private(s, &plastic);
+  if (!plastic || s->course.flow_start > 0 || *step == 1) PetscFunctionReturn(PETSC_SUCCESS);
+  s->course.flow_start = it->norm;
+  *step                = 0;
   PetscCall(ProblemStepMove(s->problem, dx, 0, PETSC_FALSE, it->x));
   PetscCall(SNESComputeFunction(s->snes, it->x, it->r));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-const Modifier ModifierSecantFlow = {"secant_flow", "plastic flow by its secant stiffness where a step of Newton's method goes too far", .begin = Begin_Private,
+const Modifier ModifierSecantFlow = {"secant_flow", "plastic flow by its secant stiffness where a step of Newton's method goes too far",
                                      .linearise = Linearise_Private, .shorten = Shorten_Private};

@@ -7,6 +7,7 @@
 static PetscErrorCode Correct_Private(Solver s, const Iterate *it, Vec dx, PetscBool *acts, PetscBool *again)
 {
   PetscReal excess, slide;
+  PetscBool settled;
 
   PetscFunctionBegin;
   for (PetscInt i = 0; i < MOST_PAIRS && !s->no_solution; ++i) {
@@ -18,8 +19,8 @@ static PetscErrorCode Correct_Private(Solver s, const Iterate *it, Vec dx, Petsc
     if (s->no_solution) break;
     PetscCall(VecDot(s->hold, s->y, &slide));
     PetscCall(VecAXPY(s->rhs, -excess / slide, s->hold));
-    PetscCall(SolverActiveSetSolve_Private(s, dx));
-    s->best_iter = it->number; /* a slide is progress */
+    PetscCall(SolverActiveSetSolve_Private(s, PETSC_FALSE, dx, &settled));
+    s->course.best_iter = it->number; /* a slide is progress */
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

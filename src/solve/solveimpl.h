@@ -26,9 +26,25 @@ typedef struct {
   SNESConvergedReason reason;  /* with trouble */
 } Iterate;
 
+/* What one solve remembers of its iterations. */
+typedef struct {
+  uint64_t  last_circle;  /* Solver.circle of the linear step before */
+  PetscBool fixed_circle; /* active sets went in a circle with all directions fixed, too */
+  PetscReal first_norm;   /* residual after the first iteration */
+  PetscReal best_norm;    /* least residual … */
+  PetscInt  best_iter;    /* … and its iteration */
+  PetscReal last_norm;    /* residual of the last iterate, 0: prescribed motion was left … */
+  uint64_t  last_set;     /* … and its active set */
+  PetscBool shortened;    /* was the last step too far (line search)? */
+  PetscBool grew, fell;   /* has the residual grown while the set stayed, and fallen since? */
+  PetscReal flow_start;   /* residual that the share of the secant stiffness of flow counts from, 0: none is taken */
+  PetscInt  halvings;     /* steps shortened */
+} Course;
+
 struct _p_Solver {
   Problem       problem; /* borrowed */
   SNES          snes;
+  KSP           ksp;                /* borrowed: of the SNES */
   Vec           lift, rhs, y, hold; /* of the matrix: effect of the motion to come, right-hand side, solution, forces that hold bodies back */
   Vec           balance;            /* residual with the element pressures found; NULL: none are condensed */
   PetscReal    *pressure;           /* of the state being solved, borrowed during SolverSolve */
@@ -57,19 +73,9 @@ struct _p_Solver {
   PetscBool     test;            /* -snes_test_jacobian was given */
   uint64_t     *pass_sets;       /* owned [passes+1] hashes of the active sets of the passes of one linearisation */
   uint64_t      circle;          /* in which the active sets of the last linear step went, 0: none */
-  uint64_t      last_circle;     /* the same for the linear step before */
-  PetscBool     fixed_circle;    /* in this solve active sets went in a circle with all directions fixed, too */
   PetscBool     swap;            /* SolverSwapPredictor */
-  PetscReal     first_norm;      /* residual after the first iteration */
-  PetscReal     best_norm;       /* least residual of this solve … */
-  PetscInt      best_iter;       /* … and its iteration */
-  PetscReal     last_norm;       /* residual of the last iterate, 0: prescribed motion was left … */
-  uint64_t      last_set;        /* … and its active set */
-  PetscBool     shortened;       /* was the last step too far (line search)? */
-  PetscBool     grew, fell;      /* has the residual grown in this solve while the set stayed, and fallen since? */
   PetscReal     step;            /* share of the last linear step that was gone */
-  PetscReal     flow_start;      /* residual that the share of the secant stiffness of flow counts from, 0: none is taken */
-  PetscInt      halvings;        /* steps shortened in this solve */
+  Course        course;          /* of this solve */
   PetscInt      negative;        /* pivots of the last factor of this solve beyond those of constraints, -1: not known */
   PetscBool     no_memory;       /* for the last factor */
   SolverReport *report;
@@ -82,8 +88,9 @@ PetscErrorCode SNESCreate_ContactNewton(SNES);
 /* Norm and active set of an iterate whose residual is there. Collective. */
 PetscErrorCode SolverLook_Private(Solver, Iterate *);
 /* Solve tangent . dx = rhs with the active set iterated: until it stays, or repeats (then the solution that contradicted its own set least is taken), or the
-   passes are used up. s->no_solution: there is none. Collective. */
-PetscErrorCode SolverActiveSetSolve_Private(Solver, Vec dx);
+   passes are used up. again: the matrix has been factorised with other rows of this linearisation; settled: the last pass changed no state. s->no_solution:
+   there is none. Collective. */
+PetscErrorCode SolverActiveSetSolve_Private(Solver, PetscBool again, Vec dx, PetscBool *settled);
 /* judge.c: is the residual small, do incompressible cells keep their volume, and is nothing prescribed left? reason > 0: yes. Collective. */
 PetscErrorCode SolverConverged_Private(Solver, const Iterate *, SNESConvergedReason *reason);
 /* A residual that counts as none, unit: force. */
@@ -96,7 +103,6 @@ PetscErrorCode SolverTest_Private(Solver, Vec x);
 /* A modifier of Newton's iteration; NULL: it has nothing to say there. *acts: it changed something, which is counted. All collective. */
 typedef struct {
   const char *name, *help;
-  PetscErrorCode (*begin)(Solver); /* of a solve */
   /* Chooses s->form for the tangent at an iterate; what is not chosen is plain. last: the one before. always: the switch is on. */
   PetscErrorCode (*linearise)(Solver, const Iterate *, const Form *last, PetscBool always, PetscBool *acts);
   /* Looks at the linear step dx and changes it, or changes s->form and asks for it again. */
@@ -114,7 +120,6 @@ extern const Modifier ModifierFrozenSegmentation, ModifierStall, ModifierFrozenN
     ModifierYieldEdge, ModifierSecantFlow, ModifierSlidePredictor, ModifierLineSearch, ModifierCarriedForce;
 /* modifier.c: all that are not off, in the order of the table. */
 const Modifier *SolverModifier_Private(PetscInt);
-PetscErrorCode  ModifiersBegin_Private(Solver);
 PetscErrorCode  ModifiersLinearise_Private(Solver, const Iterate *);
 PetscErrorCode  ModifiersCorrect_Private(Solver, const Iterate *, Vec dx, PetscBool *again);
 PetscErrorCode  ModifiersMoved_Private(Solver, const Iterate *, Vec dx, PetscReal step);
@@ -127,6 +132,8 @@ PetscReal SolverInside_Private(const PetscReal s[2], const PetscReal g[2]);
 PetscErrorCode SolverMatrixSolve_Private(Solver, Vec rhs, PetscBool again);
 /* direct solver by default, everything open to options. */
 PetscErrorCode SolverLinear_Private(Solver);
+/* x with the factor at hand, from which MUMPS may fail: then the factor is of no use any more. *ok: there is an x. Collective. */
+PetscErrorCode SolverFactorSolve_Private(KSP, Vec rhs, Vec x, PetscBool *failed, PetscBool *ok);
 /* From the next factorisation on, the exact tangent by LU. */
 PetscErrorCode SolverUnsymmetric_Private(Solver);
 /* singlefactor.c: make a PC the factor in single precision of its matrix, LDL^T where that is symmetric; exists where MUMPS has it. */

@@ -42,8 +42,6 @@ PetscErrorCode SolverTest_Private(Solver s, Vec x)
 
 static PetscErrorCode Options_Private(Solver s)
 {
-  PetscBool possible;
-
   PetscFunctionBegin;
   s->rtol      = 1e-10;
   s->max_it    = 25;
@@ -51,11 +49,11 @@ static PetscErrorCode Options_Private(Solver s)
   s->passes    = 10;
   s->cuts      = 6;
 
-  s->linear      = LINEAR_AUTO;
-  s->factor      = FACTOR_AUTO;
-  s->linear_rtol = 1e-9;
-  PetscCall(ProblemIsSymmetric(s->problem, &possible));
-  s->symmetric = possible;
+  s->linear                = LINEAR_AUTO;
+  s->factor                = FACTOR_AUTO;
+  s->linear_rtol           = 1e-9;
+  const PetscBool possible = ProblemIsSymmetric(s->problem);
+  s->symmetric             = possible;
   PetscCall(SolverOptions_Private(s));
   PetscCall(MultigridCheck_Private(s->multigrid, s->linear));
   s->symmetric = (PetscBool)(s->symmetric && possible);
@@ -66,10 +64,9 @@ static PetscErrorCode Options_Private(Solver s)
 /* Highest order of a cell. */
 static PetscErrorCode Highest_Private(Problem p, PetscInt *order)
 {
-  const HPTables *v;
+  const HPTables *v = HPSpaceGetTables(ProblemSpace(p));
 
   PetscFunctionBegin;
-  PetscCall(HPSpaceGetTables(ProblemSpace(p), &v));
   *order = 1;
   for (PetscInt c = 0; c < v->num_owned_cells; ++c) *order = PetscMax(*order, v->cell_order[c]);
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, order, 1, MPIU_INT, MPI_MAX, ForestComm(ProblemForest(p))));
@@ -80,14 +77,12 @@ static PetscErrorCode Highest_Private(Problem p, PetscInt *order)
    nearly incompressible material, knows no pressure unknowns and needs symmetry. */
 static PetscErrorCode UseMultigrid_Private(Solver s, PetscBool *yes)
 {
-  const SceneData *scene;
-  PetscInt         dofs, num_u, num_z, dim, scalars;
-  PetscBool        incompressible;
+  const SceneData *scene = ProblemGetScene(s->problem);
+  PetscInt         num_u, num_z, dim;
+  const PetscInt   dofs = ProblemNumDofs(s->problem);
 
   PetscFunctionBegin;
-  PetscCall(ProblemGetScene(s->problem, &scene));
-  PetscCall(ProblemNumDofs(s->problem, &dofs));
-  PetscCall(ProblemGetBlocks(s->problem, &num_u, &num_z, &dim));
+  ProblemGetBlocks(s->problem, &num_u, &num_z, &dim);
   *yes = (PetscBool)(dim == 3 && dofs >= SOLVER_LARGE);
   for (PetscInt b = 0; b < scene->mechanics.num_bodies; ++b) {
     if (scene->mechanics.bodies[b].material->mixed) *yes = PETSC_FALSE;
@@ -95,9 +90,9 @@ static PetscErrorCode UseMultigrid_Private(Solver s, PetscBool *yes)
   s->reuse = (PetscBool)(dim == 3);
   if (s->linear == LINEAR_DIRECT) *yes = PETSC_FALSE;
   if (s->linear == LINEAR_ITERATIVE) *yes = PETSC_TRUE;
-  PetscCall(ProblemIsIncompressible(s->problem, &incompressible));
+  const PetscBool incompressible = ProblemIsIncompressible(s->problem);
   PetscCheckInput(!*yes || !incompressible, "-solve_linear iterative: not with incompressible material (kappa: inf, nu: 0.5); take auto or direct");
-  PetscCall(ProblemNumScalars(s->problem, &scalars));
+  const PetscInt scalars = ProblemNumScalars(s->problem);
   if (!s->symmetric || scalars) *yes = PETSC_FALSE;
   PetscCheckInput(
       s->linear != LINEAR_ITERATIVE || !scalars,
@@ -120,24 +115,23 @@ static const MaterialSpec *Unsymmetric_Private(const SceneData *scene)
 static PetscErrorCode Condense_Private(Solver s)
 {
   PetscInt            num_u, num_z, dim;
-  PetscBool           yes, directional, incompressible, whole;
-  const SceneData    *scene;
+  PetscBool           yes, directional, whole;
+  const SceneData    *scene = ProblemGetScene(s->problem);
   const MaterialSpec *unsymmetric;
 
   PetscFunctionBegin;
-  PetscCall(ProblemGetScene(s->problem, &scene));
   unsymmetric = Unsymmetric_Private(scene);
   PetscCheckInput(!unsymmetric || s->condense != CONDENSE_YES, "-solve_condense yes: not with material %s, whose tangent (law %s) is not symmetric; take no",
                   unsymmetric->name, unsymmetric->law->name);
   PetscCall(HPSpaceIsDirectional(ProblemSpace(s->problem), &directional));
   PetscCheckInput(!directional || s->condense != CONDENSE_YES, "-solve_condense yes: not with orders per direction (body.<name>.order: {x: ...}); take no");
-  PetscCall(ProblemIsIncompressible(s->problem, &incompressible));
+  const PetscBool incompressible = ProblemIsIncompressible(s->problem);
   PetscCheckInput(!incompressible || s->condense != CONDENSE_YES, "-solve_condense yes: not with incompressible material (kappa: inf, nu: 0.5); take no");
   whole = (PetscBool)(s->test || scene->load.control == LOAD_ARC_LENGTH);
   PetscCheckInput(scene->load.control != LOAD_ARC_LENGTH || s->condense != CONDENSE_YES,
                   "-solve_condense yes: not with load.control: arc_length, whose equation has all displacements in it; take no");
   PetscCheckInput(!s->test || s->condense != CONDENSE_YES, "-solve_condense yes: not with -snes_test_jacobian, which needs the whole matrix");
-  PetscCall(ProblemGetBlocks(s->problem, &num_u, &num_z, &dim));
+  ProblemGetBlocks(s->problem, &num_u, &num_z, &dim);
   yes = (PetscBool)(s->condense == CONDENSE_YES || (s->condense == CONDENSE_AUTO && !directional && !incompressible && !unsymmetric &&
                                                     s->order > dim)); /* from there on it pays (docs/results.md) */
   if (yes && !whole) PetscCall(ProblemSetCondense(s->problem));
@@ -145,15 +139,12 @@ static PetscErrorCode Condense_Private(Solver s)
 }
 
 /* Are there element pressures that are condensed? */
-static PetscErrorCode StoresPressure_Private(Problem p, PetscBool *yes)
+static void StoresPressure_Private(Problem p, PetscBool *yes)
 {
-  const SceneData *scene;
+  const SceneData *scene = ProblemGetScene(p);
 
-  PetscFunctionBegin;
-  PetscCall(ProblemGetScene(p, &scene));
   *yes = PETSC_FALSE;
   for (PetscInt b = 0; b < scene->mechanics.num_bodies; ++b) *yes = (PetscBool)(*yes || MaterialStoresPressure(scene->mechanics.bodies[b].material));
-  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SolverCreate(Problem problem, Solver *solver)
@@ -185,18 +176,16 @@ PetscErrorCode SolverCreate(Problem problem, Solver *solver)
   PetscCall(SNESSetJacobian(s->snes, A, A, Jacobian_Private, s));
   PetscCall(ProblemCreateRightSide(problem, &s->lift));
   PetscCall(VecDuplicateAll(s->lift, 3, (Vec *[]){&s->rhs, &s->y, &s->hold}));
-  PetscCall(StoresPressure_Private(problem, &stores));
+  StoresPressure_Private(problem, &stores);
   if (stores) PetscCall(ProblemCreateVector(problem, &s->balance));
   PetscCall(PetscMalloc1(s->passes + 1, &s->pass_sets));
   *solver = s;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SolverSwapPredictor(Solver s, PetscBool swap)
+void SolverSwapPredictor(Solver s, PetscBool swap)
 {
-  PetscFunctionBegin;
   s->swap = swap;
-  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SolverDestroy(Solver *solver)

@@ -10,11 +10,10 @@
 /* Forces without symmetry, from the reference positions. */
 static PetscErrorCode Start_Private(Descent *d)
 {
-  const HPTables *v;
+  const HPTables *v = HPSpaceGetTables(ProblemSpace(d->problem));
   PetscReal      *local;
 
   PetscFunctionBegin;
-  PetscCall(HPSpaceGetTables(ProblemSpace(d->problem), &v));
   PetscCall(PetscMalloc1(v->num_nodes * v->dim, &local));
   for (PetscInt i = 0; i < v->num_nodes * v->dim; ++i) {
     const PetscReal *X = v->X + 3 * (i / v->dim), a = 1 + (PetscReal)(i % v->dim);

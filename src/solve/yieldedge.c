@@ -9,7 +9,7 @@ static PetscErrorCode Linearise_Private(Solver s, const Iterate *it, const Form 
   const SceneData *scene;
 
   PetscFunctionBegin;
-  PetscCall(ProblemGetScene(s->problem, &scene));
+  scene = ProblemGetScene(s->problem);
   if (!MechanicsIsPlastic(&scene->mechanics)) PetscFunctionReturn(PETSC_SUCCESS);
   s->form.edge = it->number == 0 ? (s->swap ? EDGE_RESTS : EDGE_FLOWS) : last->released ? EDGE_RESTS : EDGE_AS_IT_IS;
   *acts        = (PetscBool)(s->form.edge != EDGE_AS_IT_IS);

@@ -3,16 +3,15 @@
 
 PetscErrorCode TransferContextSetUp_Private(TransferContext *c)
 {
-  Forest old_forest, new_forest;
+  const Forest old_forest = HPSpaceGetForest(c->old_space);
+  const Forest new_forest = HPSpaceGetForest(c->new_space);
 
   PetscFunctionBegin;
-  PetscCall(HPSpaceGetForest(c->old_space, &old_forest));
-  PetscCall(HPSpaceGetForest(c->new_space, &new_forest));
-  PetscCall(HPSpaceGetTables(c->old_space, &c->old_v));
-  PetscCall(HPSpaceGetTables(c->new_space, &c->new_v));
-  PetscCall(ForestGetTables(old_forest, &c->old_t));
-  PetscCall(ForestGetTables(new_forest, &c->new_t));
-  c->comm = ForestComm(new_forest);
+  c->old_v = HPSpaceGetTables(c->old_space);
+  c->new_v = HPSpaceGetTables(c->new_space);
+  c->old_t = ForestGetTables(old_forest);
+  c->new_t = ForestGetTables(new_forest);
+  c->comm  = ForestComm(new_forest);
   PetscCallMPI(MPI_Comm_rank(c->comm, &c->rank));
   PetscCallMPI(MPI_Comm_size(c->comm, &c->size));
   PetscCheck(c->map->num == c->new_t->num_leaves, c->comm, PETSC_ERR_ARG_INCOMP, "map of %" PetscInt_FMT " leaves for a forest of %" PetscInt_FMT, c->map->num,
@@ -44,10 +43,10 @@ PetscInt TransferNumPressure_Private(const TransferContext *c, PetscInt body, Pe
 static PetscErrorCode LeafSize_Private(const TransferContext *c, PetscInt leaf, PetscInt *num)
 {
   const PetscInt body = c->old_t->leaf_body[leaf];
-  PetscInt       order, history;
+  PetscInt       history;
+  const PetscInt order = HPSpaceGetOrder(c->old_space, c->old_t->first[c->old_t->dim] + leaf);
 
   PetscFunctionBegin;
-  PetscCall(HPSpaceGetOrder(c->old_space, c->old_t->first[c->old_t->dim] + leaf, &order));
   PetscCall(NumHistory_Private(c, body, order, &history));
   *num = TransferNumNodal_Private(c->old_t->dim, order) + TransferNumPressure_Private(c, body, order) + history;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -115,10 +114,10 @@ static PetscErrorCode Counts_Private(const TransferContext *c, PetscInt num, con
 static PetscErrorCode Pack_Private(const TransferContext *c, const PetscInt leaf_cell[], PetscInt leaf, const OldFields *from, PetscReal to[])
 {
   const PetscInt dim = c->old_t->dim;
-  PetscInt       order, first, num;
+  PetscInt       first, num;
+  const PetscInt order = HPSpaceGetOrder(c->old_space, c->old_t->first[dim] + leaf);
 
   PetscFunctionBegin;
-  PetscCall(HPSpaceGetOrder(c->old_space, c->old_t->first[dim] + leaf, &order));
   PetscCall(HPSpaceGather(c->old_space, leaf_cell[leaf], from->u, to));
   PetscCall(HPSpaceGatherPositions(c->old_space, leaf_cell[leaf], to + ElementNumNodes(dim, order) * dim));
   if (!c->old_mechanics) PetscFunctionReturn(PETSC_SUCCESS);

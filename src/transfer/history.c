@@ -106,12 +106,11 @@ static const PetscReal *OldHistory_Private(const TransferContext *c, const OldCe
 static PetscErrorCode Load_Private(const TransferContext *c, const OldCells *old, PetscInt leaf, OldPoints *p)
 {
   const PetscInt dim = c->old_t->dim;
-  PetscInt       order;
 
   PetscFunctionBegin;
   if (p->leaf == leaf) PetscFunctionReturn(PETSC_SUCCESS);
-  p->leaf = leaf;
-  PetscCall(HPSpaceGetOrder(c->old_space, c->old_t->first[dim] + leaf, &order));
+  p->leaf              = leaf;
+  const PetscInt order = HPSpaceGetOrder(c->old_space, c->old_t->first[dim] + leaf);
   PetscCall(MechanicsPointRule(order, &p->basis));
   p->num                = ElementNumNodes(dim, p->basis->num_points - 1);
   const PetscReal *from = OldHistory_Private(c, old, leaf, order);
@@ -184,7 +183,7 @@ static PetscErrorCode Nearest_Private(const TransferContext *c, const OldCells *
     least   = distance;
     nearest = q;
   }
-  PetscCall(HPSpaceGetOrder(c->old_space, c->old_t->first[c->old_t->dim] + p->leaf, &order));
+  order = HPSpaceGetOrder(c->old_space, c->old_t->first[c->old_t->dim] + p->leaf);
   PetscCall(PetscArraycpy(history, OldHistory_Private(c, old, p->leaf, order) + nearest * H, H));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -236,7 +235,7 @@ PetscErrorCode TransferHistory_Private(const TransferContext *c, const OldCells 
     PetscCall(MechanicsHistoryRange(c->new_mechanics, cell, &first, &num));
     if (!num) continue;
     PetscCheck(c->spec->bodies[c->new_t->leaf_body[leaf]].material->law->num_history == H, PETSC_COMM_SELF, PETSC_ERR_SUP, "no transfer for this history");
-    PetscCall(HPSpaceGetOrder(c->old_space, c->old_t->first[c->old_t->dim] + k, &order));
+    order = HPSpaceGetOrder(c->old_space, c->old_t->first[c->old_t->dim] + k);
     if (c->map->old_count[leaf] == 1 && order == c->new_v->cell_order[cell] && SameLeaf_Private(c, leaf, k)) /* bit by bit */
       PetscCall(PetscArraycpy(history + first, OldHistory_Private(c, old, k, order), num));
     else

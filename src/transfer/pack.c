@@ -23,16 +23,14 @@ static PetscErrorCode EntityOffsets_Private(HPSpace space, const ForestTables *t
 /* Places of the true nodes that this rank owns, dim each, and the local nodes they are, node[num/dim]. */
 static PetscErrorCode NodePlaces_Private(Problem problem, Places *p, PetscInt **node)
 {
-  const ForestTables *t;
-  const HPTables     *v;
   Forest              forest = ProblemForest(problem);
+  const ForestTables *t      = ForestGetTables(forest);
   HPSpace             space  = ProblemSpace(problem);
+  const HPTables     *v      = HPSpaceGetTables(space);
   PetscMPIInt         rank;
   PetscInt           *offset, num = 0, start = 0;
 
   PetscFunctionBegin;
-  PetscCall(ForestGetTables(forest, &t));
-  PetscCall(HPSpaceGetTables(space, &v));
   PetscCallMPI(MPI_Comm_rank(ForestComm(forest), &rank));
   PetscCall(EntityOffsets_Private(space, t, &offset));
   PetscCall(PetscMalloc1(v->num_nodes, node));
@@ -51,14 +49,13 @@ static PetscErrorCode NodePlaces_Private(Problem problem, Places *p, PetscInt **
 
 static PetscErrorCode PackDisplacement_Private(Problem problem, Vec x, Vec *field)
 {
-  const HPTables *v;
   Places          p;
   HPSpace         space = ProblemSpace(problem);
+  const HPTables *v     = HPSpaceGetTables(space);
   PetscInt       *node;
   PetscReal      *u;
 
   PetscFunctionBegin;
-  PetscCall(HPSpaceGetTables(space, &v));
   PetscCall(NodePlaces_Private(problem, &p, &node));
   PetscCall(PetscMalloc1(v->num_nodes * v->dim, &u));
   PetscCall(ProblemLocalDisplacement(problem, x, u));
@@ -73,15 +70,14 @@ static PetscErrorCode PackDisplacement_Private(Problem problem, Vec x, Vec *fiel
 /* *jump: how far prescribed components of the field and of the problem are apart, against the field's largest. */
 static PetscErrorCode UnpackDisplacement_Private(Problem problem, Vec field, Vec x, PetscReal *jump)
 {
-  const HPTables *v;
   const PetscInt *global;
   Places          p;
   HPSpace         space = ProblemSpace(problem);
+  const HPTables *v     = HPSpaceGetTables(space);
   PetscInt       *node;
   PetscReal      *u, largest;
 
   PetscFunctionBegin;
-  PetscCall(HPSpaceGetTables(space, &v));
   PetscCall(HPSpaceGetGlobalDofs(space, &global));
   PetscCall(NodePlaces_Private(problem, &p, &node));
   PetscCall(PlacesFetch_Private(field, &p));
@@ -113,15 +109,13 @@ typedef PetscErrorCode (*BlockRange)(Mechanics, PetscInt cell, PetscInt *first, 
 
 static PetscErrorCode BlockPlaces_Private(Problem problem, BlockRange range, PetscInt num, Places *p)
 {
-  const ForestTables *t;
-  const HPTables     *v;
+  const HPTables     *v         = HPSpaceGetTables(ProblemSpace(problem));
   Forest              forest    = ProblemForest(problem);
+  const ForestTables *t         = ForestGetTables(forest);
   Mechanics           mechanics = ProblemMechanics(problem);
   PetscInt           *offset, first, size;
 
   PetscFunctionBegin;
-  PetscCall(ForestGetTables(forest, &t));
-  PetscCall(HPSpaceGetTables(ProblemSpace(problem), &v));
   PetscCall(PetscCalloc1(t->num_leaves + 1, &offset));
   for (PetscInt c = 0; c < v->num_owned_cells; ++c) PetscCall(range(mechanics, c, &first, &offset[v->cell_leaf[c] + 1]));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, offset, (PetscMPIInt)(t->num_leaves + 1), MPIU_INT, MPI_SUM, ForestComm(forest)));
@@ -174,14 +168,13 @@ static PetscErrorCode Unknowns_Private(Problem problem, Vec x, PetscBool back, V
 
 static PetscErrorCode Multipliers_Private(Problem problem, PetscInt pair, Vec x, PetscBool back, Vec *field)
 {
-  const ContactView *view;
+  const ContactView *view = InterfaceGetContact(ProblemInterface(problem), pair);
   Places             p;
   PetscReal         *z;
   PetscBool         *own;
   PetscInt           num = 0;
 
   PetscFunctionBegin;
-  PetscCall(InterfaceGetContact(ProblemInterface(problem), pair, &view));
   const PetscInt nodes = view->nonmortar.num_nodes, total = view->num_z * nodes;
   PetscCall(PetscMalloc2(total, &z, nodes, &own));
   PetscCall(InterfaceGetMultipliers(ProblemInterface(problem), pair, x, z, own));
@@ -207,12 +200,11 @@ static PetscErrorCode Scalars_Private(Problem problem, Vec x, PetscBool back, Ve
 {
   MPI_Comm    comm = PetscObjectComm((PetscObject)x);
   PetscMPIInt rank;
-  PetscInt    num;
   Places      p;
 
   PetscFunctionBegin;
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
-  PetscCall(ProblemNumScalars(problem, &num));
+  const PetscInt num = ProblemNumScalars(problem);
   PetscCall(PlacesCreate_Private(num, num, &p));
   for (PetscInt i = 0; i < num; ++i) p.index[i] = i;
   if (back) {
@@ -269,10 +261,10 @@ PetscErrorCode TransferPack(Problem problem, const State *state, Pack *pack)
   char             name[2 * MORTISE_NAME];
 
   PetscFunctionBegin;
-  PetscCall(ProblemGetScene(problem, &scene));
+  scene     = ProblemGetScene(problem);
   pack->num = 0;
   PetscCall(PetscMalloc1(6 + 2 * scene->num_contacts, &pack->field));
-  PetscCall(ProblemGetPath(problem, &path));
+  ProblemGetPath(problem, &path);
   if (path) {
     PetscCall(PackDisplacement_Private(problem, path, &field)); /* before the displacement: its scalars must act last */
     PetscCall(Append_Private(pack, field, "%s", "path"));
@@ -323,7 +315,7 @@ PetscErrorCode TransferUnpack(Problem problem, const Pack *pack, State *state, P
   char             name[2 * MORTISE_NAME];
 
   PetscFunctionBegin;
-  PetscCall(ProblemGetScene(problem, &scene));
+  scene = ProblemGetScene(problem);
   PetscCall(Find_Private(pack, "%s", "unknown_pressure", &field));
   PetscCall(Unknowns_Private(problem, state->x, PETSC_TRUE, &field));
   PetscCall(Find_Private(pack, "%s", "scalars", &field));

@@ -36,16 +36,15 @@ static PetscErrorCode Fill_Private(MPI_Comm comm, const SurfaceView *s, const Fo
 
 PetscErrorCode PatternPack_Private(Problem problem, PetscInt pair, Vec *field)
 {
-  const ContactView  *view;
-  const ForestTables *t;
-  const PetscInt     *first, *node;
-  Forest              forest = ProblemForest(problem);
-  Places              p;
+  const ContactView *view;
+  const PetscInt    *first, *node;
+  Forest             forest = ProblemForest(problem);
+  Places             p;
 
   PetscFunctionBegin;
-  PetscCall(InterfaceGetContact(ProblemInterface(problem), pair, &view));
-  PetscCall(ForestGetTables(forest, &t));
-  PetscCall(InterfaceGetPattern(ProblemInterface(problem), pair, &first, &node));
+  view                  = InterfaceGetContact(ProblemInterface(problem), pair);
+  const ForestTables *t = ForestGetTables(forest);
+  InterfaceGetPattern(ProblemInterface(problem), pair, &first, &node);
   PetscCall(Fill_Private(ForestComm(forest), &view->nonmortar, t, first, node, &p));
   PetscCall(PlacesSend_Private(ForestComm(forest), &p, field));
   PetscCall(PlacesDestroy_Private(&p));
@@ -54,16 +53,14 @@ PetscErrorCode PatternPack_Private(Problem problem, PetscInt pair, Vec *field)
 
 PetscErrorCode PatternUnpack_Private(Problem problem, PetscInt pair, Vec field)
 {
-  const ContactView *view;
-  const SceneData   *scene;
+  const ContactView *view = InterfaceGetContact(ProblemInterface(problem), pair);
   PetscInt           total, *first, *node;
   Places             p;
 
   PetscFunctionBegin;
-  PetscCall(InterfaceGetContact(ProblemInterface(problem), pair, &view));
   const PetscInt num = view->nonmortar.num_facets;
   PetscCall(VecGetSize(field, &total));
-  PetscCall(ProblemGetScene(problem, &scene));
+  const SceneData *scene = ProblemGetScene(problem);
   PetscCheckInput(total >= num, "-restart: pattern.%s of the checkpoint has %" PetscInt_FMT " numbers, less than faces: another version of mortise wrote it",
                   scene->contacts[pair].name, total);
   PetscCall(PlacesCreate_Private(total, total, &p)); /* a rank needs those of facets around its own, too */

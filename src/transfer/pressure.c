@@ -62,7 +62,7 @@ static PetscErrorCode Sample_Private(const TransferContext *c, const OldCells *o
 
   PetscFunctionBegin;
   if (!Overlap_Private(c, new_leaf, old_leaf, lo, extent)) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(HPSpaceGetOrder(c->old_space, c->old_t->first[dim] + old_leaf, &order));
+  order = HPSpaceGetOrder(c->old_space, c->old_t->first[dim] + old_leaf);
   PetscCall(Basis1DGet(1, PetscMax(order, new_order) + 1, &gauss));
   for (PetscInt d = 0; d < dim; ++d) points *= gauss->num_points;
   PetscCall(PetscMalloc1(points * dim, &old_xi));

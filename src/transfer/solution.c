@@ -56,11 +56,10 @@ static void Shift_Private(PetscInt dim, const PetscReal dX[3][3], const PetscRea
 PetscErrorCode TransferOldPoint_Private(const TransferContext *c, const OldCells *old, PetscInt leaf, const PetscReal xi[], PetscReal work[], OldPoint *p)
 {
   const PetscInt dim = c->old_t->dim;
-  PetscInt       order;
 
   PetscFunctionBegin;
-  *p = (OldPoint){.dX = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-  PetscCall(HPSpaceGetOrder(c->old_space, c->old_t->first[dim] + leaf, &order));
+  *p                      = (OldPoint){.dX = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  const PetscInt   order  = HPSpaceGetOrder(c->old_space, c->old_t->first[dim] + leaf);
   const PetscInt   n      = ElementNumNodes(dim, order);
   const PetscReal *values = old->values + old->offset[leaf], *nodes = values + n * dim, *slope = work + n;
   PetscCall(ElementEvaluate(dim, order, xi, work, work + n));

@@ -27,8 +27,8 @@ static PetscErrorCode Multipliers_Private(const TransferContext *c, Problem old_
     const ContactView *from, *to;
     PetscReal         *old_z, *z, *traction;
     PetscBool         *wanted;
-    PetscCall(InterfaceGetContact(ProblemInterface(old_problem), i, &from));
-    PetscCall(InterfaceGetContact(ProblemInterface(new_problem), i, &to));
+    from                    = InterfaceGetContact(ProblemInterface(old_problem), i);
+    to                      = InterfaceGetContact(ProblemInterface(new_problem), i);
     const PetscInt  num     = from->nonmortar.num_nodes;
     const PetscBool vectors = (PetscBool)(from->slip && from->nonmortar.dim == 3);
     PetscCall(PetscMalloc4(to->num_z * to->nonmortar.num_nodes, &z, from->num_z * num, &old_z, num, &wanted, 3 * num, &traction));
@@ -58,11 +58,10 @@ static PetscErrorCode Evaluate_Private(Problem problem, State *s)
 
 static PetscErrorCode Scalars_Private(Problem old_problem, Vec from, Problem new_problem, Vec to)
 {
-  PetscInt   num;
-  PetscReal *values;
+  const PetscInt num = ProblemNumScalars(old_problem);
+  PetscReal     *values;
 
   PetscFunctionBegin;
-  PetscCall(ProblemNumScalars(old_problem, &num));
   PetscCall(PetscMalloc1(num, &values));
   PetscCall(ProblemGetScalars(old_problem, from, values));
   PetscCall(ProblemSetScalars(new_problem, values, to));
@@ -80,7 +79,7 @@ PetscErrorCode TransferState(Problem old_problem, const State *from, Problem new
 
   PetscFunctionBegin;
   PetscCall(StageBegin(STAGE_TRANSFER));
-  PetscCall(ProblemGetScene(old_problem, &scene));
+  scene           = ProblemGetScene(old_problem);
   c.old_space     = ProblemSpace(old_problem);
   c.new_space     = ProblemSpace(new_problem);
   c.old_mechanics = ProblemMechanics(old_problem);

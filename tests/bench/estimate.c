@@ -18,8 +18,8 @@ static void Time(PetscInt dim, PetscInt order, Formulation formulation)
   BulkMaterial(&b.material, "neo_hookean", VOLUMETRIC_QUADRATIC, formulation, 1, 10);
   b.forest = BoxForest(PETSC_COMM_SELF, dim, (const PetscInt[3]){2, 1, 1}, 1, dim == 2 ? 5 : 3, 1, &box);
   BulkSetUp(&b, order, order);
-  OK(HPSpaceGetTables(b.space, &v));
-  OK(ForestGetTables(b.forest, &t));
+  v = HPSpaceGetTables(b.space);
+  t = ForestGetTables(b.forest);
   OK(PetscCalloc1(v->num_nodes * dim, &u));
   for (PetscInt n = 0; n < v->num_nodes; ++n) u[n * dim] = 0.1 * PetscSinReal(v->X[3 * n] + 2 * v->X[3 * n + 1]);
   OK(PetscCalloc1(t->num_leaves, &eta2));

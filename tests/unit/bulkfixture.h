@@ -60,7 +60,7 @@ static inline void BulkSetUp(Bulk *b, PetscInt low, PetscInt high)
 {
   const ForestTables *t;
 
-  OK(ForestGetTables(b->forest, &t));
+  t = ForestGetTables(b->forest);
   OK(PetscMalloc1(t->num_leaves, &b->orders));
   for (PetscInt l = 0; l < t->num_leaves; ++l) b->orders[l] = (int8_t)(low + BoxRandom(high - low + 1));
   OK(HPSpaceCreate(b->forest, b->orders, NULL, 0, 0, &b->space));
@@ -86,7 +86,7 @@ static inline void BulkRefine(Forest *forest, PetscInt dim, PetscInt rounds, Pet
   for (PetscInt round = 0; round < rounds; ++round) {
     const ForestTables *t;
     MarkList            marks;
-    OK(ForestGetTables(*forest, &t));
+    t = ForestGetTables(*forest);
     BoxRandomMarks(dim, t->num_leaves, 5, anisotropic, &marks);
     marks.split[BoxRandom(t->num_leaves)] = (int8_t)((1 << dim) - 1);
     AdaptBy(forest, &marks);

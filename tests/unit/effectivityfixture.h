@@ -22,7 +22,7 @@ static PetscReal Estimated(const Solved *s)
   PetscReal           eta = 0;
   EstimateSum         sum = {.space = s->space, .mechanics = s->mechanics, .spec = &s->bulk.spec, .time = 1, .u = s->u};
 
-  OK(ForestGetTables(s->bulk.forest, &t));
+  t = ForestGetTables(s->bulk.forest);
   OK(PetscCalloc1(t->num_leaves, &sum.eta2));
   OK(EstimateBulk_Private(&sum));
   for (PetscInt l = 0; l < t->num_leaves; ++l) eta += sum.eta2[l];

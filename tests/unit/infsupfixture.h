@@ -23,7 +23,7 @@ static inline void Supported(Bulk *b, Forest forest, const int8_t orders[], Supp
   const ForestTables *t;
   PetscInt            dim;
 
-  OK(ForestGetTables(forest, &t));
+  t   = ForestGetTables(forest);
   dim = t->dim;
   *b  = (Bulk){.forest = forest};
   BulkInit(b, dim, dim == 2 ? MODEL_PLANE_STRAIN : MODEL_3D, KINEMATICS_SMALL);
@@ -70,7 +70,7 @@ static inline PetscInt NumFree(const Bulk *b, const PetscInt **global)
   const HPTables *v;
   PetscInt        n = 0;
 
-  OK(HPSpaceGetTables(b->space, &v));
+  v = HPSpaceGetTables(b->space);
   OK(HPSpaceGetGlobalDofs(b->space, global));
   for (PetscInt i = 0; i < v->dim * v->num_nodes; ++i) n = PetscMax(n, (*global)[i] + 1);
   return n;
@@ -103,7 +103,7 @@ static inline void Norm(const Bulk *b, Mat A)
   const HPTables *v;
   Assembly        a = {.A = A};
 
-  OK(HPSpaceGetTables(b->space, &v));
+  v = HPSpaceGetTables(b->space);
   OK(HPSpaceGetGlobalDofs(b->space, &a.global));
   for (PetscInt c = 0; c < v->num_owned_cells; ++c) {
     const PetscInt nodes = PetscMax(ElementNumNodes(v->dim, v->cell_order[c]), v->cell_row[c + 1] - v->cell_row[c]), size = v->dim * nodes;
@@ -155,7 +155,7 @@ static inline void Coupling(const Bulk *b, PetscInt n, Mat A)
   PetscInt         column = n;
   PetscBool        bad;
 
-  OK(HPSpaceGetTables(b->space, &v));
+  v = HPSpaceGetTables(b->space);
   OK(HPSpaceGetGlobalDofs(b->space, &global));
   OK(PetscCalloc1(v->dim * v->num_nodes, &u));
   OK(PetscMalloc1(v->dim * v->num_nodes, &r));
@@ -189,7 +189,7 @@ static inline Mat Saddle(const Bulk *b, PetscInt n, PetscInt m)
   PetscInt        order = 1;
   Mat             A;
 
-  OK(HPSpaceGetTables(b->space, &v));
+  v = HPSpaceGetTables(b->space);
   for (PetscInt c = 0; c < v->num_owned_cells; ++c) order = PetscMax(order, v->cell_order[c]);
   OK(MatCreateSeqAIJ(PETSC_COMM_SELF, n + m, n + m, 3 * ElementNumNodes(v->dim, 2 * order), NULL, &A)); /* more than a row of a regular mesh */
   OK(MatSetOption(A, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_FALSE));
@@ -262,7 +262,7 @@ static inline InfSup Measure(Forest forest, PetscInt order, Support support, con
   InfSup              result;
   int8_t             *orders;
 
-  OK(ForestGetTables(forest, &t));
+  t = ForestGetTables(forest);
   OK(PetscMalloc1(t->num_leaves, &orders));
   for (PetscInt l = 0; l < t->num_leaves; ++l) orders[l] = (int8_t)order;
   result = MeasureOrders(forest, orders, order, support, what, n);
@@ -290,7 +290,7 @@ static inline void Split(Forest *forest, Choice choice)
   const ForestTables *t;
   MarkList            marks;
 
-  OK(ForestGetTables(*forest, &t));
+  t = ForestGetTables(*forest);
   OK(PetscCalloc1(t->num_leaves, &marks.split));
   OK(PetscCalloc1(t->num_leaves, &marks.coarsen));
   for (PetscInt l = 0; l < t->num_leaves; ++l) {

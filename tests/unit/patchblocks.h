@@ -93,7 +93,7 @@ static inline void PatchAdapt(Forest forest, PetscInt one_in, PetscBool coarsen,
   const ForestTables *t;
   MarkList            marks;
 
-  OK(ForestGetTables(forest, &t));
+  t = ForestGetTables(forest);
   OK(PetscCalloc1(t->num_leaves, &marks.split));
   OK(PetscCalloc1(t->num_leaves, &marks.coarsen));
   for (PetscInt l = 0; l < t->num_leaves; ++l) {

@@ -21,7 +21,7 @@ static inline void SolvedCreate(Solved *s, PetscInt low, PetscInt high)
 {
   const ForestTables *t;
 
-  OK(ForestGetTables(s->bulk.forest, &t));
+  t = ForestGetTables(s->bulk.forest);
   OK(PetscMalloc1(t->num_leaves, &s->bulk.orders));
   for (PetscInt l = 0; l < t->num_leaves; ++l) s->bulk.orders[l] = (int8_t)(low + BoxRandom(high - low + 1));
   s->scene.mechanics  = s->bulk.spec;
@@ -31,7 +31,7 @@ static inline void SolvedCreate(Solved *s, PetscInt low, PetscInt high)
   OK(ProblemCreate(&s->scene, s->bulk.forest, s->bulk.orders, &s->problem));
   s->space     = ProblemSpace(s->problem);
   s->mechanics = ProblemMechanics(s->problem);
-  OK(HPSpaceGetTables(s->space, &s->tables));
+  s->tables    = HPSpaceGetTables(s->space);
   OK(ProblemSetTime(s->problem, 0));
   OK(ProblemJump(s->problem));
   OK(SolverCreate(s->problem, &s->solver));
@@ -65,7 +65,7 @@ static inline void SplitLeaf(Forest *forest, PetscInt leaf, PetscInt split)
   const ForestTables *t;
   MarkList            marks;
 
-  OK(ForestGetTables(*forest, &t));
+  t = ForestGetTables(*forest);
   OK(PetscCalloc1(t->num_leaves, &marks.split));
   OK(PetscCalloc1(t->num_leaves, &marks.coarsen));
   for (PetscInt l = 0; l < t->num_leaves; ++l) marks.split[l] = (int8_t)(leaf < 0 || l == leaf ? split : 0);
@@ -83,7 +83,7 @@ static inline void HangingMesh(Solved *s, PetscInt dim, PetscInt q, PetscInt spl
   box_distorted  = PETSC_FALSE;
   SplitLeaf(&s->bulk.forest, 0, split);
   SplitLeaf(&s->bulk.forest, BoxRandom(2), split);
-  OK(ForestGetTables(s->bulk.forest, &t));
+  t = ForestGetTables(s->bulk.forest);
   assert_true(t->num_leaves > 1 << dim);
 }
 

@@ -160,7 +160,7 @@ static inline PetscInt SumBetween(Sum *s, Patch *nonmortar, Patch *mortar)
   SearchAll(pair, nonmortar, mortar, 0.5, 1e-3);
   SumCreate(s, nonmortar, mortar);
   SumEvaluate(s, pair, nonmortar, mortar, NULL, PETSC_FALSE);
-  CHECK_CALL(ContactPairGetDegenerate(pair, &degenerate));
+  degenerate = ContactPairGetDegenerate(pair);
   PatchDestroy(nonmortar);
   PatchDestroy(mortar);
   CHECK_CALL(ContactPairDestroy(&pair));

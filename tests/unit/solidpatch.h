@@ -84,7 +84,7 @@ static inline void PatchRefine(Forest *forest, PetscInt times)
   for (PetscInt k = 0; k < times; ++k) {
     const ForestTables *t;
     MarkList            marks;
-    OK(ForestGetTables(*forest, &t));
+    t = ForestGetTables(*forest);
     OK(PetscCalloc1(t->num_leaves, &marks.split));
     OK(PetscCalloc1(t->num_leaves, &marks.coarsen));
     marks.split[k ? 4 : 0] = marks.split[t->num_leaves - 1] = 7;

@@ -58,7 +58,7 @@ static inline void BulkSolve(const Bulk *b, PetscReal u[])
   PetscReal      *r, *x, first = 0;
   PetscInt        n = 0;
 
-  OK(HPSpaceGetTables(b->space, &v));
+  v = HPSpaceGetTables(b->space);
   OK(HPSpaceGetGlobalDofs(b->space, &global));
   for (PetscInt i = 0; i < v->num_nodes * v->dim; ++i) n = PetscMax(n, global[i] + 1);
   OK(PetscMalloc1(v->num_nodes * v->dim, &r));
@@ -113,7 +113,7 @@ static inline PetscReal BulkError(const Bulk *b, void (*gradient)(const PetscRea
   const PetscReal mu = b->material.mu, kappa = b->material.kappa;
   PetscReal       sum = 0;
 
-  OK(HPSpaceGetTables(b->space, &v));
+  v = HPSpaceGetTables(b->space);
   for (PetscInt c = 0; c < v->num_owned_cells; ++c) {
     const PetscInt p = v->cell_order[c], dim = v->dim;
     const Basis1D *gauss;

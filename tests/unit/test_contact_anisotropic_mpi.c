@@ -11,7 +11,7 @@ static void Split(Forest *forest, PetscInt times)
   for (PetscInt k = 0; k < times; ++k) {
     const ForestTables *t;
     MarkList            marks;
-    OK(ForestGetTables(*forest, &t));
+    t = ForestGetTables(*forest);
     OK(PetscCalloc1(t->num_leaves, &marks.split));
     OK(PetscCalloc1(t->num_leaves, &marks.coarsen));
     for (PetscInt l = 0; l < t->num_leaves; ++l) marks.split[l] = (int8_t)(BoxRandom(3) ? 0 : 1 + BoxRandom(7));
@@ -49,7 +49,7 @@ static void Surfaces(void **state)
     p.forest = PatchForest(2, 3);
     Split(&p.forest, 4);
     PatchStart(&p);
-    OK(InterfaceGetContact(ProblemInterface(p.problem), 0, &view));
+    view = InterfaceGetContact(ProblemInterface(p.problem), 0);
     Follow(&view->nonmortar);
     Follow(&view->mortar);
     PatchDestroy(&p);
@@ -69,7 +69,7 @@ static void PatchTest(void **state)
     p.forest = PatchForest(2, 3);
     Split(&p.forest, share_all ? 4 : 3);
     PatchStart(&p);
-    OK(InterfaceGetContact(ProblemInterface(p.problem), 0, &view));
+    view = InterfaceGetContact(ProblemInterface(p.problem), 0);
     assert_true(PatchHanging(&view->nonmortar) > 0 && PatchHanging(&view->mortar) > 0);
     PatchSolve(p.problem, &p.state);
     OK(EstimateCompute(p.problem, &p.state, &e));

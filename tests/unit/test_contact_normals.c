@@ -6,7 +6,7 @@ static const PetscReal *Normals(Chain *nonmortar, Chain *mortar, ContactPair *pa
   const PetscReal *n;
 
   EvaluateOnce(nonmortar, mortar, PETSC_FALSE, PETSC_FALSE, 0.5, NULL, pair, s);
-  CHECK_CALL(ContactPairGetNormals(*pair, &n));
+  n = ContactPairGetNormals(*pair);
   return n;
 }
 

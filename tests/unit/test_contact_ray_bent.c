@@ -23,7 +23,7 @@ static PetscReal Beyond(ContactPair pair)
   PetscReal             most = 0;
   PetscInt              num;
 
-  CHECK_CALL(ContactPairGetSegments(pair, &num, &s));
+  ContactPairGetSegments(pair, &num, &s);
   for (PetscInt i = 0; i < num; i++)
     for (PetscInt k = 0; k < s[i].num; k++)
       for (int c = 0; c < 2; c++) most = PetscMax(most, PetscAbsReal(s[i].eta[k][c]) - 1);
@@ -50,7 +50,7 @@ static void Check(PetscInt order, PetscInt mortar_order, PetscBool standard, Pet
   SearchAll(pair, &nonmortar, &mortar, 0.5, 1e-3);
   SumCreate(&s, &nonmortar, &mortar);
   SumEvaluate(&s, pair, &nonmortar, &mortar, NULL, PETSC_FALSE);
-  CHECK_CALL(ContactPairGetDegenerate(pair, &degenerate));
+  degenerate = ContactPairGetDegenerate(pair);
   for (PetscInt j = 0; j < s.nn; j++) worst = PetscMax(worst, PetscAbsReal(s.gap[j] - 0.05 * s.weight[j]) / Largest(s.weight, s.nn));
   area = PetscAbsReal(s.area - 0.78 * 0.78);
   print_message("orders %d/%d, bent by %g: area off by %.1e, weighted gaps by %.1e, %d dropped, rays up to %.2f beyond\n", (int)order, (int)mortar_order,

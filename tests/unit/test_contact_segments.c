@@ -7,7 +7,7 @@ static void Segments(Chain *nonmortar, Chain *mortar, ContactPair *pair, PetscIn
 
   EvaluateOnce(nonmortar, mortar, PETSC_FALSE, PETSC_FALSE, 0.5, NULL, pair, &sum);
   assert_false(sum.failed);
-  CHECK_CALL(ContactPairGetSegments(*pair, num, s));
+  ContactPairGetSegments(*pair, num, s);
   SumDestroy(&sum);
 }
 
@@ -95,7 +95,7 @@ static void Degenerate(void **state)
   ChainLine(&mortar, 4, -1, 0.1, 2, 0.1);
   mortar.x[4] = mortar.x[2] = 0.4;
   EvaluateOnce(&nonmortar, &mortar, PETSC_FALSE, PETSC_FALSE, 0.5, NULL, &pair, &sum);
-  CHECK_CALL(ContactPairGetSegments(pair, &n, &s));
+  ContactPairGetSegments(pair, &n, &s);
   assert_false(sum.failed);
   assert_int_equal(n, 2);
   for (PetscInt i = 0; i < n; i++) length += s[i].xi[1][0] - s[i].xi[0][0];
@@ -125,7 +125,7 @@ static void Lost(void **state)
     memcpy(nonmortar.x, (const PetscReal[8]){0.5, 0.2, 0.2, 0, -0.2, 0, -0.5, 0.2}, 8 * sizeof(PetscReal));
     ChainLine(&mortar, 4, -0.3, beyond ? 2 : 0.1, 0.3, beyond ? 2 : 0.1);
     EvaluateOnce(&nonmortar, &mortar, PETSC_FALSE, PETSC_FALSE, 3, z, &pair, &sum);
-    CHECK_CALL(ContactPairGetDegenerate(pair, &lost));
+    lost = ContactPairGetDegenerate(pair);
     print_message("%s the crossing: %d lost, area %g\n", beyond ? "beyond" : "before", (int)lost, (double)sum.area);
     assert_true(beyond ? lost > 0 : lost == 0 && sum.area > 0.4);
     SumDestroy(&sum);

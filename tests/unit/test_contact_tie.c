@@ -88,12 +88,12 @@ static void test_shared(void **state)
       CHECK_CALL(PetscCalloc1(a.s.num_nodes, &shared));
       for (PetscInt n = 0; n < a.s.num_nodes; n++) softness[n] = 0.5;
       CHECK_CALL(ContactPairCreate(dim, PETSC_FALSE, &spec, &pair));
-      CHECK_CALL(ContactPairSetSoftness(pair, softness));
+      ContactPairSetSoftness(pair, softness);
       SearchAll(pair, &a, &b, 0.5, 0);
       CHECK_CALL(ContactPairTie(pair, &a.s, &b.s, &num, &facets, &failed));
       for (PetscInt f = 0; f < num; f++) assert_null(facets[f].compliance);
       shared[facets[0].nodes[0]] = PETSC_TRUE;
-      CHECK_CALL(ContactPairSetShared(pair, shared));
+      ContactPairSetShared(pair, shared);
       CHECK_CALL(ContactPairTie(pair, &a.s, &b.s, &num, &facets, &failed));
       for (PetscInt f = 0; f < num; f++) {
         PetscReal sum = 0;

@@ -39,7 +39,7 @@ static PetscReal Rate(Function f, PetscInt order)
   BulkMaterial(&b.material, "linear", VOLUMETRIC_QUADRATIC, FORMULATION_DISPLACEMENT, 1, 1);
   b.forest = BoxForest(PETSC_COMM_SELF, 2, (const PetscInt[3]){1, 1, 1}, 1, 0, 0, &box);
   BulkSetUp(&b, order, order);
-  OK(HPSpaceGetTables(b.space, &v));
+  v = HPSpaceGetTables(b.space);
   OK(PetscMalloc1(2 * v->num_nodes, &u));
   for (PetscInt i = 0; i < v->num_nodes; ++i) u[2 * i] = 1 + f(v->X[3 * i], v->X[3 * i + 1]), u[2 * i + 1] = 5 * v->X[3 * i];
   sum = (EstimateSum){.space = b.space, .v = v, .u = u};
@@ -106,7 +106,7 @@ static void Lower(void **state)
   AdaptSpec           spec = {.strategy = ADAPT_HP, .max_order = 8};
   int8_t              coarsen, p;
 
-  OK(ForestGetTables(forest, &t));
+  t = ForestGetTables(forest);
   for (PetscInt l = 0; l < NUM; ++l) {
     p = order[l];
     EstimateLower_Private(&e, &spec, t, l, &coarsen, &p);
@@ -114,7 +114,7 @@ static void Lower(void **state)
     assert_int_equal(p, PetscMax(1, order[l] - 1));
   }
   fine = BoxForest(PETSC_COMM_SELF, 2, (const PetscInt[3]){2, 2, 1}, 1, 1, 1, &box);
-  OK(ForestGetTables(fine, &t));
+  t    = ForestGetTables(fine);
   for (PetscInt l = 0; l < NUM; ++l) {
     const int8_t smooth = (int8_t)(order[l] > 2 && decay[l] > 1.5);
     p                   = order[l];
@@ -139,7 +139,7 @@ static void Marks(void **state)
   int8_t              next[NUM], low[NUM];
   Estimate            one_peak = e;
 
-  OK(ForestGetTables(forest, &t));
+  t = ForestGetTables(forest);
   for (PetscInt l = 0; l < NUM; ++l) one[l] = l == 2 ? 16 : l == 3 ? 15 : 1, low[l] = 2;
   one_peak.eta2  = one;
   one_peak.order = low;
@@ -172,7 +172,7 @@ static void Even(void **state)
       const ForestTables *t;
       int8_t             *p, *fixed;
       BulkRefine(&forest, dim, 2, PETSC_TRUE);
-      OK(ForestGetTables(forest, &t));
+      t = ForestGetTables(forest);
       OK(PetscMalloc1(t->num_leaves, &p));
       OK(PetscCalloc1(t->num_leaves, &fixed));
       for (PetscInt l = 0; l < t->num_leaves; ++l) p[l] = (int8_t)(1 + 7 * !BoxRandom(20));

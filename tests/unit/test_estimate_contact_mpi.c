@@ -50,7 +50,7 @@ static void WrongPressure(void **state)
     OK(ProblemInitialOrders(&p.data, p.forest, &orders));
     PatchProblem(&p.data, p.forest, orders, &p.problem, &p.state);
     PatchSolve(p.problem, &p.state);
-    OK(InterfaceGetContact(ProblemInterface(p.problem), 0, &view));
+    view = InterfaceGetContact(ProblemInterface(p.problem), 0);
     OK(PetscMalloc1(view->nonmortar.num_nodes, &z));
     for (PetscInt n = 0; n < view->nonmortar.num_nodes; ++n) z[n] = view->z[n] + d;
     OK(InterfaceSetMultipliers(ProblemInterface(p.problem), 0, z, p.state.x));

@@ -18,8 +18,8 @@ static void Along(Bulk *b, PetscInt dim, PetscInt axes, Estimate *e)
   const HPTables     *v;
   PetscReal          *u, *eta2, (*along)[3];
 
-  OK(ForestGetTables(b->forest, &t));
-  OK(HPSpaceGetTables(b->space, &v));
+  t = ForestGetTables(b->forest);
+  v = HPSpaceGetTables(b->space);
   OK(PetscMalloc1(v->num_nodes * dim, &u));
   for (PetscInt i = 0; i < v->num_nodes * dim; ++i) u[i] = Field(axes, i % dim, v->X + 3 * (i / dim));
   OK(PetscCalloc1(t->num_leaves, &eta2));
@@ -49,7 +49,7 @@ static void Marks(PetscInt dim, const PetscInt n[3], PetscInt refine, PetscInt o
   b.forest = BoxForest(PETSC_COMM_WORLD, dim, n, 1, refine, seed, &box);
   BulkSetUp(&b, order, order);
   Along(&b, dim, axes, &e);
-  OK(ForestGetTables(b.forest, &t));
+  t = ForestGetTables(b.forest);
   OK(EstimateMark(&e, &spec, b.forest, &marks, NULL, &num));
   assert_int_equal(num, t->num_leaves);
   for (PetscInt l = 0; l < t->num_leaves; ++l) {

@@ -106,7 +106,7 @@ static PetscReal Effectivity(const Field *field, PetscInt n, PetscInt order, For
   b.forest = BoxForest(PETSC_COMM_SELF, dim, (const PetscInt[3]){1, 1, 1}, 1, refine, 1, &box);
   if (hanging) BulkRefine(&b.forest, dim, 1, PETSC_FALSE);
   BulkSetUp(&b, order, order);
-  OK(HPSpaceGetTables(b.space, &v));
+  v = HPSpaceGetTables(b.space);
   OK(PetscCalloc1(v->num_nodes * dim, &u));
   for (PetscInt i = 0; i < v->num_nodes; ++i) {
     PetscReal value[3];
@@ -114,7 +114,7 @@ static PetscReal Effectivity(const Field *field, PetscInt n, PetscInt order, For
     for (PetscInt c = 0; c < dim; ++c) u[i * dim + c] = value[c];
   }
   BulkSolve(&b, u);
-  OK(ForestGetTables(b.forest, &t));
+  t = ForestGetTables(b.forest);
   OK(PetscCalloc1(t->num_leaves, &eta2));
   sum = (EstimateSum){.space = b.space, .mechanics = b.mechanics, .spec = &b.spec, .time = 1, .u = u, .eta2 = eta2};
   OK(EstimateBulk_Private(&sum));

@@ -21,7 +21,7 @@ static void Kink(PetscInt dim, PetscInt order, PetscBool anisotropic, uint64_t s
   BulkMaterial(&b.material, "linear", VOLUMETRIC_QUADRATIC, FORMULATION_DISPLACEMENT, 1, 2. / 3);
   for (PetscInt s = 0; s < 2 * dim; ++s) b.boundaries[s].fix[0] = b.boundaries[s].fix[1] = b.boundaries[s].fix[2] = PETSC_TRUE;
   b.forest = BoxForest(PETSC_COMM_WORLD, dim, (const PetscInt[3]){2, 1, 1}, 1, 0, seed, &box);
-  OK(ForestGetTables(b.forest, &t));
+  t        = ForestGetTables(b.forest);
   OK(PetscCalloc1(t->num_leaves, &marks.split));
   OK(PetscCalloc1(t->num_leaves, &marks.coarsen));
   for (PetscInt l = 0; l < t->num_leaves; ++l) {
@@ -30,8 +30,8 @@ static void Kink(PetscInt dim, PetscInt order, PetscBool anisotropic, uint64_t s
   }
   AdaptBy(&b.forest, &marks);
   BulkSetUp(&b, order, order);
-  OK(ForestGetTables(b.forest, &t));
-  OK(HPSpaceGetTables(b.space, &v));
+  t = ForestGetTables(b.forest);
+  v = HPSpaceGetTables(b.space);
   OK(PetscCalloc1(v->num_nodes * dim, &u));
   for (PetscInt n = 0; n < v->num_nodes; ++n) u[n * dim] = v->X[3 * n] < 1 ? a * v->X[3 * n] : a + slope * (v->X[3 * n] - 1);
   OK(PetscCalloc1(t->num_leaves, &eta2));

@@ -11,7 +11,7 @@ static void FillLinear(const Bulk *b, const PetscReal H[9], PetscReal **u)
 {
   const HPTables *v;
 
-  OK(HPSpaceGetTables(b->space, &v));
+  v = HPSpaceGetTables(b->space);
   OK(PetscMalloc1(v->num_nodes * v->dim, u));
   for (PetscInt n = 0; n < v->num_nodes; ++n) {
     const PetscReal *frame;
@@ -42,7 +42,7 @@ static void Sum(const Bulk *b, const PetscReal u[], EstimateSum *sum, PetscReal 
   const ForestTables *t;
   PetscReal           shares[NUM_PARTS + 1];
 
-  OK(ForestGetTables(b->forest, &t));
+  t = ForestGetTables(b->forest);
   OK(PetscCalloc1(t->num_leaves, eta2));
   *sum = (EstimateSum){.space = b->space, .mechanics = b->mechanics, .spec = &b->spec, .time = 1, .u = u, .eta2 = *eta2};
   OK(EstimateBulk_Private(sum));

@@ -116,8 +116,8 @@ static void Cycles(PetscInt order, PetscInt cycles, Formulation formulation, Pet
     Texts(&b);
     b.forest = forest;
     BulkSetUp(&b, order, order);
-    OK(HPSpaceGetTables(b.space, &v));
-    OK(ForestGetTables(forest, &t));
+    v = HPSpaceGetTables(b.space);
+    t = ForestGetTables(forest);
     OK(HPSpaceGetGlobalDofs(b.space, &global));
     for (PetscInt i = 0; i < 2 * v->num_nodes; ++i) n = PetscMax(n, global[i] + 1);
     OK(PetscCalloc1(2 * v->num_nodes, &u));

@@ -9,7 +9,7 @@ static void Mark(Forest forest, PetscReal eta2[], PetscReal fraction, PetscReal 
   const AdaptSpec     spec = {.fraction = fraction, .coarsen = coarsen, .max_cells = max_cells};
   Estimate            e    = {.eta2 = eta2};
 
-  OK(ForestGetTables(forest, &t));
+  t            = ForestGetTables(forest);
   e.num_leaves = t->num_leaves;
   OK(EstimateMark(&e, &spec, forest, marks, NULL, num));
 }
@@ -98,12 +98,10 @@ static void Alike(void **state)
   PetscReal eta2[9] = {13.9, 19, 10, 20, 14, 19.5, 18.8, 10, 19.6}; /* sum 144.8 */
 
   for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); ++i) {
-    const ForestTables *t;
-    const AdaptSpec     spec = {.fraction = cases[i].fraction, .alike = cases[i].alike, .max_cells = 9 + cases[i].room};
-    const Estimate      e    = {.eta2 = eta2, .num_leaves = 9};
-    MarkList            marks;
-    PetscInt            num;
-    OK(ForestGetTables(forest, &t));
+    const AdaptSpec spec = {.fraction = cases[i].fraction, .alike = cases[i].alike, .max_cells = 9 + cases[i].room};
+    const Estimate  e    = {.eta2 = eta2, .num_leaves = 9};
+    MarkList        marks;
+    PetscInt        num;
     OK(EstimateMark(&e, &spec, forest, &marks, NULL, &num));
     assert_int_equal(num, cases[i].num);
     OK(MarkListDestroy(&marks));
@@ -176,7 +174,7 @@ static void Aspect(void **state)
     Forest              adapted;
     ForestMap           map;
     PetscInt            num;
-    OK(ForestGetTables(forest, &t));
+    t            = ForestGetTables(forest);
     e.num_leaves = t->num_leaves;
     OK(PetscMalloc1(t->num_leaves, &e.eta2));
     OK(PetscCalloc1(t->num_leaves, &e.along));
@@ -190,8 +188,8 @@ static void Aspect(void **state)
     OK(ForestMapDestroy(&map));
     OK(EstimateDestroy(&e));
     OK(ForestDestroy(&forest));
-    forest = adapted;
-    OK(ForestGetTables(forest, &t));
+    forest              = adapted;
+    t                   = ForestGetTables(forest);
     const int8_t *level = t->leaf_level;
     assert_int_equal(level[1], pass + 1);
     assert_int_equal(level[0], PetscMax(0, pass - 1));
@@ -207,7 +205,7 @@ static PetscErrorCode MarkCorner(Forest forest, PetscReal norm, PetscReal tolera
   Estimate            e    = {.norm = norm};
   const ForestTables *t;
 
-  OK(ForestGetTables(forest, &t));
+  t            = ForestGetTables(forest);
   e.num_leaves = t->num_leaves;
   OK(PetscMalloc1(t->num_leaves, &e.eta2));
   for (PetscInt l = 0; l < t->num_leaves; ++l) e.eta2[l] = t->leaf_lo[3 * l] || t->leaf_lo[3 * l + 1] ? 1e-6 : 1;
@@ -266,7 +264,7 @@ static void Layers(void **state)
   PetscBool           room;
   MarkList            marks;
 
-  OK(ForestGetTables(forest, &t));
+  t = ForestGetTables(forest);
   for (PetscInt l = 0; l < 16; ++l) {
     const PetscBool side = ForestLeafTouches(t, l, 1 | 2), other = ForestLeafTouches(t, l, 4 | 8);
     order[l] = 2;

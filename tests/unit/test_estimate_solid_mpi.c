@@ -13,7 +13,7 @@ static void NoResidual(void **state)
     p.forest = PatchForest(2, 3);
     PatchRefine(&p.forest, 1);
     PatchStart(&p);
-    OK(InterfaceGetContact(ProblemInterface(p.problem), 0, &view));
+    view = InterfaceGetContact(ProblemInterface(p.problem), 0);
     assert_true(PatchHanging(&view->nonmortar) > 0 && PatchHanging(&view->mortar) > 0);
     PatchSolve(p.problem, &p.state);
     OK(EstimateCompute(p.problem, &p.state, &e));
@@ -80,8 +80,8 @@ static void BothSides(void **state)
     p.forest = PatchForest(2, 3);
     PatchRefine(&p.forest, 2);
     PatchStart(&p);
-    OK(ForestGetTables(p.forest, &t));
-    OK(InterfaceGetContact(ProblemInterface(p.problem), 0, &view));
+    t    = ForestGetTables(p.forest);
+    view = InterfaceGetContact(ProblemInterface(p.problem), 0);
     assert_true(PatchHanging(&view->nonmortar) > 0 && PatchHanging(&view->mortar) > 0);
     SetField(&p, view);
     OK(ProblemCreateVector(p.problem, &r));
@@ -107,9 +107,9 @@ static PetscReal ContactShare(Patch *p, PetscReal d, PetscReal z)
   Vec                 r;
   PetscReal          *local, *all;
 
-  OK(HPSpaceGetTables(ProblemSpace(p->problem), &v));
-  OK(ForestGetTables(p->forest, &t));
-  OK(InterfaceGetContact(ProblemInterface(p->problem), 0, &view));
+  v    = HPSpaceGetTables(ProblemSpace(p->problem));
+  t    = ForestGetTables(p->forest);
+  view = InterfaceGetContact(ProblemInterface(p->problem), 0);
   OK(PetscCalloc1(3 * v->num_nodes, &local));
   for (PetscInt n = 0; n < v->num_nodes; ++n) local[3 * n + 2] = t->leaf_body[t->entity_leaf[v->node_entity[n]]] == 1 ? d : 0;
   OK(ProblemSetDisplacement(p->problem, local, p->state.x));
@@ -134,8 +134,8 @@ static PetscReal AreaOverSize(const Patch *p)
   const ForestTables *t;
   PetscReal           sum = 0;
 
-  OK(ForestGetTables(p->forest, &t));
-  OK(InterfaceGetContact(ProblemInterface(p->problem), 0, &view));
+  t    = ForestGetTables(p->forest);
+  view = InterfaceGetContact(ProblemInterface(p->problem), 0);
   for (PetscInt f = 0; f < view->nonmortar.num_facets; ++f) {
     const int8_t *level = t->leaf_level + 3 * view->nonmortar.facet_leaf[f];
     sum += PetscSqrtReal(4. / 9 / (PetscReal)(1 << (level[0] + level[1])));

@@ -25,14 +25,14 @@ static void Restored(Forest *forest, PetscInt round)
   PetscInt            num;
   int8_t             *split;
 
-  OK(ForestGetTables(*forest, &t));
+  t = ForestGetTables(*forest);
   MPI_Comm_size(PETSC_COMM_WORLD, &size);
   OK(PetscMalloc1(t->num_leaves, &owner));
   for (PetscInt l = 0; l < t->num_leaves; ++l) owner[l] = size - 1 - t->leaf_rank[l];
   OK(ForestGetSplits(*forest, &num, &split));
   OK(ForestRestore(*forest, num, split, t->revision, t->num_leaves, round % 2 ? owner : NULL, NULL, &other));
   OK(PetscFree(split));
-  OK(ForestGetTables(other, &u));
+  u = ForestGetTables(other);
   SameTables(t, u);
   assert_int_equal(t->revision, u->revision);
   if (round % 2) assert_memory_equal(u->leaf_rank, owner, sizeof(PetscMPIInt) * (size_t)t->num_leaves);
@@ -47,8 +47,8 @@ static void Restored(Forest *forest, PetscInt round)
     OK(PetscArraycpy(same.coarsen, marks.coarsen, n));
     AdaptBy(forest, &marks);
     AdaptBy(&other, &same);
-    OK(ForestGetTables(*forest, &t));
-    OK(ForestGetTables(other, &u));
+    t = ForestGetTables(*forest);
+    u = ForestGetTables(other);
     SameTables(t, u);
   }
   OK(ForestDestroy(&other));

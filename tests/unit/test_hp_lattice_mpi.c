@@ -47,7 +47,7 @@ static void Polynomials(HPSpace space, PetscInt cell, PetscInt n, const PetscRea
   const HPTables *v;
   PetscReal       nodal[2][3 * MOST], N[MOST];
 
-  OK(HPSpaceGetTables(space, &v));
+  v = HPSpaceGetTables(space);
   OK(HPSpaceGatherPositions(space, cell, nodal[0]));
   OK(HPSpaceGather(space, cell, local, nodal[1]));
   for (PetscInt i = 0; i < ElementNumNodes(v->dim, n); ++i) {
@@ -79,8 +79,8 @@ static PetscReal Gap(HPSpace space, PetscInt divide, PetscBool closed)
   Sample          *sample;
   PetscReal       *local, gap = 0;
 
-  OK(HPSpaceGetTables(space, &v));
-  OK(HPSpaceGetForest(space, &forest));
+  v      = HPSpaceGetTables(space);
+  forest = HPSpaceGetForest(space);
   OK(HPSpacePieces(space, divide, pieces));
   local = Values(v);
   OK(PetscMalloc1(v->num_owned_cells * 6 * SAMPLES * SAMPLES, &sample));
@@ -125,7 +125,7 @@ static void CheckGaps(PetscInt dim, uint64_t seed, PetscInt low, PetscInt high, 
   HPSpace             space;
   int8_t             *orders, (*caps)[3];
 
-  OK(ForestGetTables(forest, &t));
+  t = ForestGetTables(forest);
   OK(PetscMalloc2(t->num_leaves, &orders, t->num_leaves, &caps));
   for (PetscInt l = 0; l < t->num_leaves; ++l) orders[l] = (int8_t)(low + BoxRandom(high - low + 1));
   for (PetscInt i = 0; i < 3 * t->num_leaves && capped; ++i) caps[i / 3][i % 3] = (int8_t)(1 + BoxRandom(high));
@@ -170,11 +170,11 @@ static void test_exact(void **state)
       HPSpace             space;
       int8_t             *orders;
       PetscInt            pieces[MORTISE_MAX_ORDER + 1];
-      OK(ForestGetTables(forest, &t));
+      t = ForestGetTables(forest);
       OK(PetscMalloc1(t->num_leaves, &orders));
       for (PetscInt l = 0; l < t->num_leaves; ++l) orders[l] = (int8_t)p;
       OK(HPSpaceCreate(forest, orders, NULL, 0, 0, &space));
-      OK(HPSpaceGetTables(space, &v));
+      v = HPSpaceGetTables(space);
       OK(HPSpacePieces(space, p == 2 ? 5 : 0, pieces));
       assert_int_equal(pieces[p], p == 2 ? 5 : p);
       PetscReal *local;

@@ -42,7 +42,7 @@ static PetscReal ReproductionError(HPSpace space, PetscInt degree)
   const HPTables *v;
   PetscReal      *local, values[3 * MOST], X[3 * MOST], N[MOST], error = 0;
 
-  OK(HPSpaceGetTables(space, &v));
+  v = HPSpaceGetTables(space);
   OK(PetscMalloc1(v->num_nodes * v->dim, &local));
   FillPolynomial(v, degree, local);
   for (PetscInt c = 0; c < v->num_cells; ++c) {
@@ -76,7 +76,7 @@ static void test_reproduction(void **state)
         HPSpace             space;
         int8_t             *orders;
         forest = BoxRandomForest(dim, 1, dim == 2 ? 3 : 2, 5, (PetscBool)(seed % 2), seed);
-        OK(ForestGetTables(forest, &t));
+        t      = ForestGetTables(forest);
         RandomOrders(t, low, 4, &orders);
         OK(HPSpaceCreate(forest, orders, NULL, 0, 0, &space));
         const PetscReal error = ReproductionError(space, low);
@@ -99,7 +99,7 @@ static void test_reproduction_curved(void **state)
     HPSpace             space;
     int8_t             *orders;
     forest = BoxRandomForest(2 + seed % 2, 2, 2, 5, PETSC_TRUE, seed);
-    OK(ForestGetTables(forest, &t));
+    t      = ForestGetTables(forest);
     RandomOrders(t, 1, 4, &orders);
     OK(HPSpaceCreate(forest, orders, NULL, 0, 0, &space));
     const PetscReal error = ReproductionError(space, 1);
@@ -129,14 +129,10 @@ static int ByPlace(const void *a, const void *b)
    are collected by position. */
 static PetscReal ContinuityError(HPSpace space)
 {
-  const HPTables     *v;
-  const ForestTables *t;
-  Forest              forest;
-  PetscReal          *local, values[3 * MOST], N[MOST], error = 0;
+  const HPTables *v      = HPSpaceGetTables(space);
+  const Forest    forest = HPSpaceGetForest(space);
+  PetscReal      *local, values[3 * MOST], N[MOST], error = 0;
 
-  OK(HPSpaceGetTables(space, &v));
-  OK(HPSpaceGetForest(space, &forest));
-  OK(ForestGetTables(forest, &t));
   OK(PetscMalloc1(v->num_nodes * v->dim, &local));
   FillRandom(v, local);
   PetscReal(*sample)[6];
@@ -188,7 +184,7 @@ static void test_continuity(void **state)
     HPSpace             space;
     int8_t             *orders;
     forest = BoxRandomForest(2 + seed % 2, 1, seed % 2 ? 1 : 3, 5, (PetscBool)(seed >= 2), seed);
-    OK(ForestGetTables(forest, &t));
+    t      = ForestGetTables(forest);
     RandomOrders(t, 1, 4, &orders);
     OK(HPSpaceCreate(forest, orders, NULL, seed == 5 ? 1 : 0, 0, &space));
     const PetscReal error = ContinuityError(space);
@@ -212,7 +208,7 @@ static void CheckRotation(PetscInt dim, PetscInt rotation)
   box_rotation = rotation;
   forest       = BoxRandomForest(dim, 1, dim == 2 ? 4 : 1, 5, (PetscBool)(rotation % 3 > 0), (uint64_t)rotation);
   box_rotation = -1;
-  OK(ForestGetTables(forest, &t));
+  t            = ForestGetTables(forest);
   RandomOrders(t, 1 + rotation % 2, 8, &orders);
   OK(HPSpaceCreate(forest, orders, NULL, rotation % 4 == 0, 0, &space));
   for (PetscInt e = 0; e < t->first[dim]; ++e) hanging[e < t->first[1] ? 0 : e < t->first[2] ? 1 : 2] += t->parent[e] >= 0;
@@ -249,7 +245,7 @@ static void CheckCaps(PetscInt dim, PetscInt rotation, PetscInt high)
   box_rotation = rotation;
   forest       = BoxRandomForest(dim, 1, dim == 2 ? 4 : 1, 5, (PetscBool)(rotation % 3 > 0), (uint64_t)rotation);
   box_rotation = -1;
-  OK(ForestGetTables(forest, &t));
+  t            = ForestGetTables(forest);
   RandomOrders(t, low, high, &orders);
   OK(PetscMalloc1(t->num_leaves, &caps));
   for (PetscInt l = 0; l < t->num_leaves; ++l)
@@ -294,7 +290,7 @@ static PetscReal ProductError(HPSpace space)
   const HPTables *v;
   PetscReal      *local, values[3 * MOST], X[3 * MOST], error = 0;
 
-  OK(HPSpaceGetTables(space, &v));
+  v = HPSpaceGetTables(space);
   OK(PetscMalloc1(v->num_nodes * v->dim, &local));
   for (PetscInt n = 0; n < v->num_nodes; ++n)
     for (PetscInt c = 0; c < v->dim; ++c) local[n * v->dim + c] = v->node_hang[n + 1] > v->node_hang[n] ? PETSC_MAX_REAL : Product(c, v->X + 3 * n);
@@ -320,7 +316,7 @@ static PetscInt NumTrueNodes(HPSpace space, const ForestTables *t)
   PetscInt        num = 0;
 
   OK(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
-  OK(HPSpaceGetTables(space, &v));
+  v = HPSpaceGetTables(space);
   for (PetscInt n = 0; n < v->num_nodes; ++n) {
     const PetscInt e = v->node_entity[n];
     if (t->parent[e] < 0 && t->leaf_rank[t->entity_leaf[e]] == rank) ++num;
@@ -348,7 +344,7 @@ static void CheckProducts(PetscInt dim, PetscInt rotation, PetscInt rounds)
     highest = PetscMax(highest, degree[d]);
     num *= 2 * degree[d] + 1;
   }
-  OK(ForestGetTables(forest, &t));
+  t = ForestGetTables(forest);
   RandomOrders(t, highest, highest, &orders);
   OK(PetscMalloc1(t->num_leaves, &caps));
   for (PetscInt l = 0; l < t->num_leaves; ++l) {
@@ -424,7 +420,7 @@ static void test_isotropic(void **state)
     HPSpace             space;
     int8_t             *orders, *scalar;
 
-    OK(ForestGetTables(forest, &t));
+    t = ForestGetTables(forest);
     RandomOrders(t, 1 + (PetscInt)(seed % 4), 8, &orders);
     OK(PetscMalloc1(t->num_entities, &scalar));
     OK(HPSpaceCreate(forest, orders, NULL, seed % 5, 0, &space));
@@ -473,16 +469,16 @@ static void test_default_constraints(void **state)
   PetscReal          *a, lg, gl;
 
   forest = BoxRandomForest(2, 1, 3, 5, PETSC_FALSE, 7);
-  OK(ForestGetTables(forest, &t));
+  t      = ForestGetTables(forest);
   RandomOrders(t, 1, 3, &orders);
   OK(HPSpaceCreate(forest, orders, NULL, 0, 0, &space));
-  OK(HPSpaceGetTables(space, &v));
+  v = HPSpaceGetTables(space);
   OK(PetscCalloc1(v->num_nodes, &fixed));
   for (PetscInt n = 0; n < v->num_nodes; ++n) {
     if (t->parent[v->node_entity[n]] < 0 && t->boundary[v->node_entity[n]] & 3) fixed[n] = t->boundary[v->node_entity[n]] & 1 ? 3 : 2;
   }
   OK(HPSpaceSetUp(space, fixed, 0, NULL, NULL));
-  OK(HPSpaceGetDM(space, &dm));
+  dm = HPSpaceGetDM(space);
   OK(DMCreateGlobalVector(dm, &g));
   OK(DMCreateLocalVector(dm, &l));
   OK(VecDuplicate(l, &r));
@@ -530,10 +526,10 @@ static void test_transform(void **state)
   const PetscReal     c = PetscCosReal(0.3), s = PetscSinReal(0.3);
 
   forest = BoxRandomForest(2, 1, 3, 5, PETSC_TRUE, 7);
-  OK(ForestGetTables(forest, &t));
+  t      = ForestGetTables(forest);
   RandomOrders(t, 1, 3, &orders);
   OK(HPSpaceCreate(forest, orders, NULL, 0, 0, &space));
-  OK(HPSpaceGetTables(space, &v));
+  v = HPSpaceGetTables(space);
   PetscInt *node, num = 0;
   PetscReal(*frame)[9];
   OK(PetscMalloc2(v->num_nodes, &node, v->num_nodes, &frame));

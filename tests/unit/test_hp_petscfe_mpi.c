@@ -31,7 +31,7 @@ static void Own(const Bulk *b, PetscInt leaf, const PetscReal xi[3], const Petsc
   const HPTables *v;
   PetscReal      *nodal, *N;
 
-  OK(HPSpaceGetTables(b->space, &v));
+  v = HPSpaceGetTables(b->space);
   for (PetscInt d = 0; d < v->dim; ++d) value[d] = 0;
   for (PetscInt c = 0; c < v->num_owned_cells; ++c) {
     const PetscInt n = ElementNumNodes(v->dim, v->cell_order[c]);
@@ -121,8 +121,8 @@ static void Case(PetscInt dim, PetscInt low, PetscInt high, PetscInt seed)
   BulkMaterial(&b.material, "linear", VOLUMETRIC_QUADRATIC, FORMULATION_DISPLACEMENT, 1, 2);
   BulkInit(&b, dim, dim == 2 ? MODEL_PLANE_STRAIN : MODEL_3D, KINEMATICS_SMALL);
   BulkSetUp(&b, low, high);
-  OK(HPSpaceGetTables(b.space, &v));
-  OK(ForestGetTables(b.forest, &t));
+  v   = HPSpaceGetTables(b.space);
+  t   = ForestGetTables(b.forest);
   num = t->num_leaves;
   OK(PetscMalloc3(v->num_nodes * dim, &local, num * dim, &X, num * dim, &own));
   for (PetscInt i = 0; i < v->num_nodes * dim; ++i) local[i] = Field(v->X + 3 * (i / dim), i % dim);

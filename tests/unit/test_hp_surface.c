@@ -16,7 +16,7 @@ static void Check(int8_t order, uint64_t linear, uint64_t mirror, PetscReal inne
 
   for (PetscInt c = 0; c < NUM; ++c) orders[c] = order;
   OK(HPSpaceCreate(forest, orders, NULL, linear, mirror, &space));
-  OK(HPSpaceGetTables(space, &v));
+  v = HPSpaceGetTables(space);
   for (PetscInt n = 0; n < v->num_nodes; ++n) {
     const PetscReal *X = v->X + 3 * n, above = X[1] - 1 - CURVE * X[0] * X[0];
     const PetscReal  cell = X[0] / width;
@@ -103,7 +103,7 @@ static Forest SplitPole(Forest forest, PetscInt times)
     ForestMap           map;
     Forest              fine;
 
-    OK(ForestGetTables(forest, &t));
+    t = ForestGetTables(forest);
     OK(PetscCalloc1(t->num_leaves, &marks.split));
     OK(PetscCalloc1(t->num_leaves, &marks.coarsen));
     for (PetscInt l = 0; l < t->num_leaves; ++l) { /* at the pole and at the sphere */
@@ -168,11 +168,11 @@ static void MeanDistance(PetscInt n, PetscInt times, PetscReal mean[2])
   int8_t             *orders;
   PetscReal           sum[2][2] = {{0}};
 
-  OK(ForestGetTables(forest, &t));
+  t = ForestGetTables(forest);
   OK(PetscMalloc1(t->num_leaves, &orders));
   for (PetscInt l = 0; l < t->num_leaves; ++l) orders[l] = 2;
   OK(HPSpaceCreate(forest, orders, NULL, 1, 2, &space));
-  OK(HPSpaceGetTables(space, &v));
+  v = HPSpaceGetTables(space);
   for (PetscInt cell = 0; cell < v->num_owned_cells; ++cell) {
     const PetscInt leaf = v->cell_leaf[cell];
     PetscReal      X[81], corner[2][4][3], side = 0;

@@ -53,7 +53,7 @@ static InfSup MeasureGraded(Forest forest, Grading grading, Support support, Pet
   InfSup              result;
   int8_t             *orders;
 
-  OK(ForestGetTables(forest, &t));
+  t = ForestGetTables(forest);
   OK(PetscMalloc1(t->num_leaves, &orders));
   for (PetscInt l = 0; l < t->num_leaves; ++l) {
     PetscReal X[3];

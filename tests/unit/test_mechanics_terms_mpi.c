@@ -6,7 +6,7 @@ static void Fill(const Bulk *b, const PetscReal H[9], PetscReal **u)
 {
   const HPTables *v;
 
-  OK(HPSpaceGetTables(b->space, &v));
+  v = HPSpaceGetTables(b->space);
   OK(PetscCalloc1(v->num_nodes * v->dim, u));
   for (PetscInt i = 0; i < v->num_nodes * v->dim; ++i)
     for (PetscInt k = 0; k < v->dim; ++k) (*u)[i] += H[3 * (i % v->dim) + k] * v->X[3 * (i / v->dim) + k];

@@ -86,8 +86,8 @@ static void Same(const Patch *p, Checkpoint c, PetscInt moves, PetscBool turned)
   PetscBool           equal;
 
   OK(CheckpointForest(c, p->forest, &forest));
-  OK(ForestGetTables(p->forest, &t));
-  OK(ForestGetTables(forest, &u));
+  t = ForestGetTables(p->forest);
+  u = ForestGetTables(forest);
   assert_int_equal(t->num_leaves, u->num_leaves);
   for (PetscInt l = 0; l < t->num_leaves; ++l) assert_int_equal(u->leaf_rank[l], turned ? size - 1 - t->leaf_rank[l] : t->leaf_rank[l]);
   OK(CheckpointOrders(c, &orders));

@@ -18,7 +18,7 @@ static void LocatesAgain(void **state)
       Forest              forest = BoxForest(PETSC_COMM_WORLD, dim, n, q, 1, (uint64_t)(10 * dim + q), &box);
       Probes              probes;
 
-      OK(ForestGetTables(forest, &t));
+      t = ForestGetTables(forest);
       for (PetscInt i = 0; i < NUM; ++i) {
         /* also on sides and corners of leaves */
         const PetscReal xi[3] = {BoxRandom(5) / 4., BoxRandom(5) / 4., BoxRandom(5) / 4.};

@@ -23,7 +23,7 @@ static PetscInt Known(Problem problem)
   const ContactView *v, *all;
   PetscInt           without = 0;
 
-  OK(InterfaceGetContact(ProblemInterface(problem), 0, &v));
+  v = InterfaceGetContact(ProblemInterface(problem), 0);
   OK(InterfaceGatherContactToAll(ProblemInterface(problem), 0, &all));
   for (PetscInt n = 0; n < v->nonmortar.num_nodes; ++n) {
     if (!v->nonmortar.owned[n]) continue;
@@ -80,8 +80,8 @@ static void Lift(Patch *p, PetscInt corner)
   const ForestTables *t;
   PetscReal          *local;
 
-  OK(HPSpaceGetTables(ProblemSpace(p->problem), &v));
-  OK(ForestGetTables(p->forest, &t));
+  v = HPSpaceGetTables(ProblemSpace(p->problem));
+  t = ForestGetTables(p->forest);
   OK(PetscCalloc1(3 * v->num_nodes, &local));
   for (PetscInt n = 0; n < v->num_nodes; ++n) {
     const PetscReal x = v->X[3 * n], y = v->X[3 * n + 1], d[2] = {corner & 1 ? 2 - x : x, corner & 2 ? 2 - y : y};
@@ -125,13 +125,13 @@ static void Corner(PetscInt corner, PetscInt counts[3])
   PatchStart(&p);
   OK(ProblemJump(p.problem));
   Lift(&p, corner);
-  OK(ForestGetTables(p.forest, &t));
-  OK(InterfaceGetContact(ProblemInterface(p.problem), 0, &view));
+  t    = ForestGetTables(p.forest);
+  view = InterfaceGetContact(ProblemInterface(p.problem), 0);
   OK(ProblemCreateVector(p.problem, &r));
   PatchEvaluate(p.problem, p.state.x, r, &status);
   PatchEvaluate(p.problem, p.state.x, r, &status);
   assert_true(view->area > 0.01 && view->area < 0.5);
-  OK(InterfaceGetTraffic(ProblemInterface(p.problem), &traffic));
+  InterfaceGetTraffic(ProblemInterface(p.problem), &traffic);
   assert_int_equal(traffic.evaluations, 2);
   assert_int_equal(traffic.searches, 2);
   const PetscBool far = (PetscBool)(IsFar(&view->nonmortar, t, corner) && IsFar(&view->mortar, t, corner));

@@ -87,7 +87,7 @@ static void UniformStrain(PetscInt dim, PetscInt split, PetscInt high, PetscBool
 
   OK(PetscOptionsSetValue(NULL, "-solve_symmetric", symmetric ? "1" : "0"));
   Create(&s, dim, split, 2, high, pi, seed);
-  OK(ProblemNumDofs(s.problem, &dofs));
+  dofs = ProblemNumDofs(s.problem);
   OK(MechanicsNumUnknowns(s.mechanics, &unknowns, &ghosts));
   OK(MPI_Allreduce(MPI_IN_PLACE, &unknowns, 1, MPIU_INT, MPI_SUM, PETSC_COMM_WORLD));
   assert_true(unknowns > 0 && unknowns < dofs);
@@ -188,7 +188,7 @@ static void Transferred(void **state)
   Create(&s, 2, 3, 2, 4, pi, 7);
   SolvedSolve(&s);
   s.state.t = 1;
-  OK(ForestGetTables(s.bulk.forest, &t));
+  t         = ForestGetTables(s.bulk.forest);
   OK(PetscMalloc1(t->num_leaves, &marks.split));
   OK(PetscCalloc1(t->num_leaves, &marks.coarsen));
   for (PetscInt l = 0; l < t->num_leaves; ++l) marks.split[l] = 3;
@@ -200,7 +200,7 @@ static void Transferred(void **state)
   OK(PetscFree(orders));
   fine.space     = ProblemSpace(fine.problem);
   fine.mechanics = ProblemMechanics(fine.problem);
-  OK(HPSpaceGetTables(fine.space, &fine.tables));
+  fine.tables    = HPSpaceGetTables(fine.space);
   OK(ProblemSetTime(fine.problem, 1));
   OK(ProblemJump(fine.problem));
   OK(StateCreate(fine.problem, &fine.state));

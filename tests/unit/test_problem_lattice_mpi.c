@@ -50,7 +50,7 @@ static void CheckNodes(const Case *c, const Surface *s, PetscInt group)
   const ForestTables *t;
   PetscInt           *count, num[2] = {0, 0};
 
-  OK(ForestGetTables(c->s.bulk.forest, &t));
+  t = ForestGetTables(c->s.bulk.forest);
   OK(PetscCalloc1(v->num_nodes, &count));
   for (PetscInt n = 0; n < s->num_nodes; ++n) {
     const PetscBool hangs = (PetscBool)(s->hang[n] < s->hang[n + 1]);
@@ -95,7 +95,7 @@ static PetscReal PlaceError(Case *c, const Surface *s, const PetscReal values[],
   const PetscReal     xi[2]        = {BoxRandom(2001) * 1e-3 - 1, BoxRandom(2001) * 1e-3 - 1};
   PetscReal           corner[3][3] = {{0}}, place[3], N[SURFACE_MOST_NODES], M[125], X[375], u[375], a[6] = {0}, b[6] = {0}, error = 0;
 
-  OK(ForestGetTables(c->s.bulk.forest, &t));
+  t = ForestGetTables(c->s.bulk.forest);
   for (PetscInt k = 0; k < dim; ++k) CornerInLeaf(t, s, facet, k == 2 ? 3 : k, corner[k]);
   for (PetscInt d = 0; d < dim; ++d) {
     place[d] = corner[0][d];

@@ -18,7 +18,7 @@ static void Direction(Problem problem, PetscReal phase, Vec v)
   const HPTables *t;
   PetscReal      *local;
 
-  OK(HPSpaceGetTables(ProblemSpace(problem), &t));
+  t = HPSpaceGetTables(ProblemSpace(problem));
   OK(PetscMalloc1(t->num_nodes * t->dim, &local));
   for (PetscInt i = 0; i < t->num_nodes * t->dim; ++i) {
     const PetscReal *X = t->X + 3 * (i / t->dim);
@@ -85,10 +85,10 @@ static void Differences(PetscInt order, Model model, Formulation formulation)
   const ContactView *view;
   PetscReal         *a, *z;
   PetscBool         *own;
-  OK(InterfaceGetContact(ProblemInterface(p.problem), 0, &view));
+  view = InterfaceGetContact(ProblemInterface(p.problem), 0);
   OK(PetscMalloc2(view->nonmortar.num_nodes, &z, view->nonmortar.num_nodes, &own));
   OK(VecCopy(at[0], in));
-  OK(ProblemGetBlocks(p.problem, &num_u, &num_z, &dim));
+  ProblemGetBlocks(p.problem, &num_u, &num_z, &dim);
   OK(ProblemMeritRecover(p.problem, in, x)); /* unknowns of the matrix to multipliers: c_j */
   OK(VecGetArray(in, &a));
   const PetscReal *scaled;

@@ -13,7 +13,7 @@ static void Create(Patch *p, Vec *x)
   PatchScene(p, 2, MODEL_PLANE_STRAIN, KINEMATICS_FINITE, FORMULATION_AUTO);
   p->forest = PatchForest(n);
   PatchStart(p);
-  OK(HPSpaceGetTables(ProblemSpace(p->problem), &v));
+  v = HPSpaceGetTables(ProblemSpace(p->problem));
   OK(ProblemCreateVector(p->problem, x));
   OK(VecSet(*x, 0));
   OK(PetscCalloc1(2 * v->num_nodes, &u));
@@ -33,10 +33,10 @@ static PetscReal LeastGap(Patch *p, Vec x, PetscReal share)
   Vec                r;
 
   OK(VecDuplicate(x, &r));
-  OK(ProblemLeaveOverlap(p->problem, share));
+  ProblemLeaveOverlap(p->problem, share);
   OK(ProblemSearch(p->problem, x));
   OK(ProblemResidual(p->problem, x, NULL, r, &status));
-  OK(InterfaceGetContact(interface, 0, &view));
+  view = InterfaceGetContact(interface, 0);
   OK(VecDestroy(&r));
   return view->min_gap;
 }

@@ -108,8 +108,8 @@ static void Integrate(const Solved *s, Figures *f)
       D[3 * MOST_NODES];
   PetscReal error = 0;
 
-  *f = (Figures){.energy = s->report.status.energy};
-  OK(ProblemNumDofs(s->problem, &f->dofs));
+  *f      = (Figures){.energy = s->report.status.energy};
+  f->dofs = ProblemNumDofs(s->problem);
   for (PetscInt c = 0; c < v->num_owned_cells; ++c) {
     const PetscInt p = v->cell_order[c], n = ElementNumNodes(3, p), np = CellGauss(3, p + 3, xi, weight);
     OK(HPSpaceGatherPositions(s->space, c, X));
@@ -172,7 +172,7 @@ static Figures Solve(PetscInt n, PetscInt order, PetscBool hanging)
   box_width     = 1;
   if (hanging) {
     MarkList marks = {0};
-    OK(ForestGetTables(s.bulk.forest, &t));
+    t              = ForestGetTables(s.bulk.forest);
     OK(PetscCalloc1(t->num_leaves, &marks.split));
     OK(PetscCalloc1(t->num_leaves, &marks.coarsen));
     for (PetscInt l = 0; l < t->num_leaves; ++l) marks.split[l] = l % n < n / 2 && l / n % n < n / 2 && l / (n * n) < n / 2 ? 7 : 0;

@@ -10,7 +10,7 @@ static void Turn(const Patch *p, const ContactView *view)
   const HPTables *v;
   PetscReal      *u;
 
-  OK(HPSpaceGetTables(ProblemSpace(p->problem), &v));
+  v = HPSpaceGetTables(ProblemSpace(p->problem));
   OK(PetscCalloc1(2 * v->num_nodes, &u));
   for (PetscInt j = 0; j < view->nonmortar.num_nodes; ++j) {
     for (PetscInt n = 0; n < v->num_nodes; ++n)
@@ -34,7 +34,7 @@ static PetscBool Moves(PetscReal pressure)
   PatchScene(&p, 1, MODEL_PLANE_STRAIN, KINEMATICS_FINITE, FORMULATION_DISPLACEMENT);
   p.forest = PatchForest((const PetscInt[2]){7, 5});
   PatchStart(&p);
-  OK(InterfaceGetContact(ProblemInterface(p.problem), 0, &view));
+  view = InterfaceGetContact(ProblemInterface(p.problem), 0);
   Turn(&p, view);
   OK(PetscCalloc1(view->nonmortar.num_nodes, &z));
   for (PetscInt j = 0; j < view->nonmortar.num_nodes; ++j) z[j] = view->nonmortar.X[2 * j] > 1 + 1e-9 ? pressure : 0;

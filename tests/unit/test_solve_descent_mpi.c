@@ -18,7 +18,7 @@ static void Create(Patch *p, PetscReal size, State *off)
   PatchSolve(p->problem, &p->state);
   OK(StateCreate(p->problem, off));
   OK(StateCopy(&p->state, off));
-  OK(HPSpaceGetTables(ProblemSpace(p->problem), &t));
+  t = HPSpaceGetTables(ProblemSpace(p->problem));
   OK(PetscMalloc1(t->num_nodes * t->dim, &local));
   OK(ProblemLocalDisplacement(p->problem, off->x, local));
   for (PetscInt i = 0; i < t->num_nodes * t->dim; ++i) {

@@ -45,7 +45,7 @@ static PetscInt Soften(Patch *p, PetscBool symmetric, PetscReal compliance, Mat 
   PetscInt num_u, num_z, dim, first, last, changed = 0;
   Vec      diagonal;
 
-  OK(ProblemGetBlocks(p->problem, &num_u, &num_z, &dim));
+  ProblemGetBlocks(p->problem, &num_u, &num_z, &dim);
   OK(MatGetOwnershipRange(A, &first, &last));
   OK(MatCreateVecs(A, &diagonal, NULL));
   OK(MatGetDiagonal(A, diagonal));

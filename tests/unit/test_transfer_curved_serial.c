@@ -16,11 +16,11 @@ static HPSpace Space(Forest forest)
   HPSpace             space;
   int8_t             *orders, *fixed;
 
-  OK(ForestGetTables(forest, &t));
+  t = ForestGetTables(forest);
   OK(PetscMalloc1(t->num_leaves, &orders));
   for (PetscInt l = 0; l < t->num_leaves; ++l) orders[l] = 2;
   OK(HPSpaceCreate(forest, orders, NULL, 1, 0, &space));
-  OK(HPSpaceGetTables(space, &v));
+  v = HPSpaceGetTables(space);
   OK(PetscCalloc1(v->num_nodes, &fixed));
   OK(HPSpaceSetUp(space, fixed, 0, NULL, NULL));
   OK(PetscFree(fixed));
@@ -38,14 +38,14 @@ static PetscReal Carry(HPSpace from, HPSpace to, const ForestMap *map)
   OldCells            old;
   PetscReal          *u, *moved, exact[2], error = 0;
 
-  OK(HPSpaceGetTables(from, &v));
+  v = HPSpaceGetTables(from);
   OK(PetscCalloc1(2 * v->num_nodes, &u));
   for (PetscInt n = 0; n < v->num_nodes; ++n) Affine(v->X + 3 * n, u + 2 * n);
   OK(TransferContextSetUp_Private(&c));
   OK(OldCellsFetch_Private(&c, &(OldFields){.u = u}, &old));
-  OK(HPSpaceGetTables(to, &v));
-  OK(HPSpaceGetForest(to, &forest));
-  OK(ForestGetTables(forest, &t));
+  v      = HPSpaceGetTables(to);
+  forest = HPSpaceGetForest(to);
+  t      = ForestGetTables(forest);
   OK(PetscCalloc1(2 * v->num_nodes, &moved));
   OK(TransferDisplacement_Private(&c, &old, moved));
   for (PetscInt n = 0; n < v->num_nodes; ++n) {
@@ -64,8 +64,8 @@ static PetscReal Moved(HPSpace from, HPSpace to)
   const HPTables *a, *b;
   PetscReal       far = 0;
 
-  OK(HPSpaceGetTables(from, &a));
-  OK(HPSpaceGetTables(to, &b));
+  a = HPSpaceGetTables(from);
+  b = HPSpaceGetTables(to);
   for (PetscInt n = 0; n < a->num_nodes; ++n) {
     for (PetscInt m = 0; m < b->num_nodes; ++m) {
       const PetscReal x = a->X[3 * n] - b->X[3 * m], y = a->X[3 * n + 1] - b->X[3 * m + 1];
@@ -94,7 +94,7 @@ static void AffineStaysAffine(void **state)
   OK(ForestDestroy(&coarse));
 
   const ForestTables *t;
-  OK(ForestGetTables(fine, &t));
+  t = ForestGetTables(fine);
   OK(PetscCalloc1(t->num_leaves, &marks.split));
   OK(PetscMalloc1(t->num_leaves, &marks.coarsen));
   for (PetscInt l = 0; l < t->num_leaves; ++l) marks.coarsen[l] = 1;

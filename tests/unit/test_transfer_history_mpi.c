@@ -68,7 +68,7 @@ static PetscInt Points(const Bulk *b, PetscInt cell, PetscReal (*X)[3])
   const Basis1D  *rule;
   PetscReal       nodes[3 * 343], N[343];
 
-  OK(HPSpaceGetTables(b->space, &v));
+  v = HPSpaceGetTables(b->space);
   OK(HPSpaceGatherPositions(b->space, cell, nodes));
   OK(MechanicsPointRule(v->cell_order[cell], &rule));
   const PetscInt n = rule->num_points, num = ElementNumNodes(v->dim, n - 1);
@@ -104,7 +104,7 @@ static void Move(const Bulk *b, PetscInt step, PetscReal u[])
 {
   const HPTables *v;
 
-  OK(HPSpaceGetTables(b->space, &v));
+  v = HPSpaceGetTables(b->space);
   for (PetscInt n = 0; n < v->num_nodes; ++n) {
     PetscReal to[3], F[9];
     Motion(v->dim, step, v->X + 3 * n, to, F);
@@ -161,7 +161,7 @@ static void Admit(const Bulk *b, PetscReal history[])
   PetscReal      *u, *before;
   PetscInt        num, first, size;
 
-  OK(HPSpaceGetTables(b->space, &v));
+  v = HPSpaceGetTables(b->space);
   OK(MechanicsNumHistory(b->mechanics, &num));
   OK(PetscMalloc2(v->num_nodes * v->dim, &u, num, &before));
   OK(PetscArraycpy(before, history, num));
@@ -218,7 +218,7 @@ static void Fill(const Bulk *b, PetscInt degree, PetscBool deformed, PetscReal h
 {
   const HPTables *v;
 
-  OK(HPSpaceGetTables(b->space, &v));
+  v = HPSpaceGetTables(b->space);
   for (PetscInt c = 0; c < v->num_owned_cells; ++c) {
     PetscReal      X[343][3];
     const PetscInt num = Points(b, c, X);
@@ -245,12 +245,8 @@ static PetscInt num_kept, num_merged, num_split, num_orders;
 /* Is it what the field says, or (degree < 0) admissible? */
 static void Check(const Bulk *from, const Bulk *to, const ForestMap *map, PetscInt degree, PetscBool deformed, const PetscReal history[])
 {
-  const HPTables     *v;
-  const ForestTables *t, *old;
+  const HPTables *v = HPSpaceGetTables(to->space);
 
-  OK(HPSpaceGetTables(to->space, &v));
-  OK(ForestGetTables(to->forest, &t));
-  OK(ForestGetTables(from->forest, &old));
   for (PetscInt c = 0; c < v->num_owned_cells; ++c) {
     PetscReal      X[343][3];
     const PetscInt num = Points(to, c, X), leaf = v->cell_leaf[c];
@@ -292,7 +288,7 @@ static void Step(PetscInt dim, PetscInt degree, PetscBool deformed, PetscBool me
   from.forest = BoxForest(PETSC_COMM_WORLD, dim, (const PetscInt[3]){2, 2, 1}, 1, 1, seed, &box);
   BulkRefine(&from.forest, dim, 1, (PetscBool)(seed % 2));
   BulkSetUp(&from, low, low + (raise != 0));
-  OK(ForestGetTables(from.forest, &t));
+  t = ForestGetTables(from.forest);
   BoxRandomMarks(dim, t->num_leaves, merge ? 1000000 : 3, (PetscBool)(seed % 2), &marks);
   OK(PetscMalloc1(t->num_leaves, &weight));
   for (PetscInt l = 0; l < t->num_leaves; ++l) {
@@ -305,7 +301,7 @@ static void Step(PetscInt dim, PetscInt degree, PetscBool deformed, PetscBool me
   TransferContext c = {
       .old_space = from.space, .old_mechanics = from.mechanics, .spec = &from.spec, .new_space = to.space, .new_mechanics = to.mechanics, .map = &map};
   OK(TransferContextSetUp_Private(&c));
-  OK(HPSpaceGetTables(from.space, &v));
+  v = HPSpaceGetTables(from.space);
   OK(MechanicsNumHistory(from.mechanics, &num));
   OK(PetscCalloc2(v->num_nodes * dim, &u, num, &history));
   if (degree == FLOWN)
@@ -325,8 +321,8 @@ static void Step(PetscInt dim, PetscInt degree, PetscBool deformed, PetscBool me
   const HPTables     *nv;
   PetscMPIInt         size;
   OK(MPI_Comm_size(PETSC_COMM_WORLD, &size));
-  OK(ForestGetTables(to.forest, &nt));
-  OK(HPSpaceGetTables(to.space, &nv));
+  nt = ForestGetTables(to.forest);
+  nv = HPSpaceGetTables(to.space);
   for (PetscInt cell = 0; cell < nv->num_owned_cells && size == 1; ++cell) {
     const PetscInt leaf = nv->cell_leaf[cell], k = map.old_first[leaf];
     PetscBool      same = (PetscBool)(map.old_count[leaf] == 1 && from.orders[k] == to.orders[leaf]);
@@ -401,9 +397,9 @@ static void GhostsKnowTheirHistory(void **state)
   Setting(&b, 2);
   b.forest = BoxForest(PETSC_COMM_WORLD, 2, (const PetscInt[3]){3, 3, 1}, 1, 1, 1, &box);
   BulkSetUp(&b, 1, 2);
-  OK(HPSpaceGetTables(b.space, &v));
+  v = HPSpaceGetTables(b.space);
   const ForestTables *t;
-  OK(ForestGetTables(b.forest, &t));
+  t = ForestGetTables(b.forest);
   OK(MechanicsNumHistory(b.mechanics, &num));
   OK(PetscCalloc3(v->num_nodes * 2, &u, num, &history, t->num_leaves, &sum));
   Fill(&b, 1, PETSC_FALSE, history);

@@ -18,7 +18,7 @@ static void FillDisplacement(const Bulk *b, PetscInt degree, PetscReal **u)
 {
   const HPTables *v;
 
-  OK(HPSpaceGetTables(b->space, &v));
+  v = HPSpaceGetTables(b->space);
   OK(PetscMalloc1(v->num_nodes * v->dim, u));
   for (PetscInt n = 0; n < v->num_nodes; ++n) {
     const PetscReal *frame;
@@ -51,7 +51,7 @@ static void FillPressure(const Bulk *b, PetscInt degree, PetscReal **pressure)
   const HPTables *v;
   PetscInt        num;
 
-  OK(HPSpaceGetTables(b->space, &v));
+  v = HPSpaceGetTables(b->space);
   OK(MechanicsNumPressure(b->mechanics, &num));
   OK(PetscMalloc1(num, pressure));
   for (PetscInt c = 0; c < v->num_owned_cells; ++c) {
@@ -73,7 +73,7 @@ static PetscReal PressureError(const Bulk *b, PetscInt degree, const PetscReal p
   const HPTables *v;
   PetscReal       error = 0;
 
-  OK(HPSpaceGetTables(b->space, &v));
+  v = HPSpaceGetTables(b->space);
   for (PetscInt c = 0; c < v->num_owned_cells; ++c) {
     PetscReal xi[9] = {0.1, 0.7, 0.3, 0.9, 0.2, 0.8, 0, 1, 0.5}, X[3][3], values[3];
     PetscInt  first, m;
@@ -95,8 +95,8 @@ static PetscReal DisplacementError(const Bulk *b, PetscInt degree, const PetscRe
   PetscMPIInt         rank;
 
   OK(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
-  OK(HPSpaceGetTables(b->space, &v));
-  OK(ForestGetTables(b->forest, &t));
+  v = HPSpaceGetTables(b->space);
+  t = ForestGetTables(b->forest);
   FillDisplacement(b, degree, &exact);
   for (PetscInt n = 0; n < v->num_nodes; ++n) {
     const PetscInt e = v->node_entity[n];
@@ -124,12 +124,12 @@ static void Frames(Bulk *b, PetscInt dim)
   const HPTables     *v;
   const ForestTables *t;
 
-  OK(ForestGetTables(b->forest, &t));
+  t = ForestGetTables(b->forest);
   if (lowest_cap) OK(PetscMalloc1(t->num_leaves, &caps));
   for (PetscInt i = 0; caps && i < 3 * t->num_leaves; ++i) caps[i / 3][i % 3] = (int8_t)(lowest_cap + BoxRandom(2));
   OK(HPSpaceCreate(b->forest, b->orders, caps, 0, 0, &b->space));
   OK(PetscFree(caps));
-  OK(HPSpaceGetTables(b->space, &v));
+  v = HPSpaceGetTables(b->space);
   OK(PetscCalloc1(v->num_nodes, &b->supports.fixed));
   OK(PetscMalloc2(v->num_nodes, &b->supports.frame_node, v->num_nodes, &b->supports.frame));
   for (PetscInt n = 0; n < v->num_nodes; ++n) {
@@ -156,7 +156,7 @@ static void Step(Bulk *from, Bulk *to, PetscInt dim, PetscInt degree, PetscInt m
   PetscReal          *u, *pressure, *weight, *new_u, *new_pressure;
   PetscInt            num;
 
-  OK(ForestGetTables(from->forest, &t));
+  t = ForestGetTables(from->forest);
   BoxRandomMarks(dim, t->num_leaves, mode == 1 ? 1000000 : 3, (PetscBool)(seed % 2), &marks);
   OK(PetscMalloc1(t->num_leaves, &weight));
   for (PetscInt l = 0; l < t->num_leaves; ++l) {
@@ -184,7 +184,7 @@ static void Step(Bulk *from, Bulk *to, PetscInt dim, PetscInt degree, PetscInt m
   c.map           = &map;
   OK(TransferContextSetUp_Private(&c));
   OK(OldCellsFetch_Private(&c, &(OldFields){.u = u, .pressure = pressure}, &old));
-  OK(HPSpaceGetTables(to->space, &v));
+  v = HPSpaceGetTables(to->space);
   OK(MechanicsNumPressure(to->mechanics, &num));
   OK(PetscCalloc1(v->num_nodes * dim, &new_u));
   OK(PetscCalloc1(num, &new_pressure));
@@ -216,7 +216,7 @@ static void Polynomials(void **state)
         Setting(&b, dim);
         b.forest = BoxForest(PETSC_COMM_WORLD, dim, (const PetscInt[3]){2, 2, 1}, 1, dim == 2 ? 2 : 1, seed, &box);
         const ForestTables *t;
-        OK(ForestGetTables(b.forest, &t));
+        t = ForestGetTables(b.forest);
         OK(PetscMalloc1(t->num_leaves, &b.orders));
         for (PetscInt l = 0; l < t->num_leaves; ++l) b.orders[l] = (int8_t)(degree + (seed >= 2 ? BoxRandom(2) : 0));
         Frames(&b, dim);
@@ -259,8 +259,8 @@ static void MergedMean(void **state)
   Setting(&from, 2);
   from.forest = BoxForest(PETSC_COMM_WORLD, 2, (const PetscInt[3]){2, 2, 1}, 1, 1, 0, &box);
   BulkSetUp(&from, 1, 1);
-  OK(HPSpaceGetTables(from.space, &v));
-  OK(ForestGetTables(from.forest, &t));
+  v = HPSpaceGetTables(from.space);
+  t = ForestGetTables(from.forest);
   for (PetscInt cell = 0; cell < v->num_owned_cells; ++cell) {
     OK(MechanicsPressureRange(from.mechanics, cell, &first, &num));
     assert_int_equal(num, 1);
@@ -279,7 +279,7 @@ static void MergedMean(void **state)
   OK(TransferContextSetUp_Private(&c));
   OK(OldCellsFetch_Private(&c, &(OldFields){.u = u, .pressure = pressure}, &old));
   OK(TransferPressure_Private(&c, &old, result, NULL));
-  OK(HPSpaceGetTables(to.space, &v));
+  v     = HPSpaceGetTables(to.space);
   owned = v->num_owned_cells;
   for (PetscInt cell = 0; cell < owned; ++cell) {
     PetscReal      mean = 0;
@@ -302,7 +302,7 @@ static void Moments(const Bulk *b, PetscReal u[], const PetscReal pressure[], Pe
   const HPTables *v;
   const PetscInt  dim = b->spec.model == MODEL_3D ? 3 : 2;
 
-  OK(HPSpaceGetTables(b->space, &v));
+  v = HPSpaceGetTables(b->space);
   OK(PetscArrayzero(moment, 4));
   for (PetscInt c = 0; c < v->num_owned_cells; ++c) {
     const PetscInt order = v->cell_order[c], n = ElementNumNodes(dim, order);
@@ -352,10 +352,10 @@ static void Complete(const Bulk *b, PetscReal u[])
   PetscMPIInt         rank;
 
   OK(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
-  OK(HPSpaceGetTables(b->space, &v));
-  OK(ForestGetTables(b->forest, &t));
+  v = HPSpaceGetTables(b->space);
+  t = ForestGetTables(b->forest);
   OK(HPSpaceGetGlobalDofs(b->space, &global));
-  OK(HPSpaceGetDM(b->space, &dm));
+  dm = HPSpaceGetDM(b->space);
   OK(DMCreateGlobalVector(dm, &g));
   OK(DMCreateLocalVector(dm, &l));
   for (PetscInt i = 0; i < v->num_nodes * v->dim; ++i) {
@@ -399,11 +399,11 @@ static void Raised(void **state)
       Setting(&from, dim);
       from.forest = BoxForest(PETSC_COMM_WORLD, dim, (const PetscInt[3]){2, 2, 1}, 1, 1, 0, &box);
       BulkRefine(&from.forest, dim, 1, (PetscBool)(seed % 2));
-      OK(ForestGetTables(from.forest, &t));
+      t = ForestGetTables(from.forest);
       OK(PetscMalloc1(t->num_leaves, &from.orders));
       for (PetscInt l = 0; l < t->num_leaves; ++l) from.orders[l] = (int8_t)(1 + BoxRandom(dim == 2 ? 3 : 2));
       Frames(&from, dim);
-      OK(HPSpaceGetTables(from.space, &v));
+      v = HPSpaceGetTables(from.space);
       OK(PetscMalloc1(v->num_nodes * dim, &u));
       for (PetscInt i = 0; i < v->num_nodes * dim; ++i)
         u[i] = v->node_hang[i / dim + 1] > v->node_hang[i / dim] ? PETSC_MAX_REAL : Hash(v->X + 3 * (i / dim), (PetscReal)(i % dim));
@@ -436,7 +436,7 @@ static void Raised(void **state)
           .old_space = from.space, .old_mechanics = from.mechanics, .spec = &from.spec, .new_space = to.space, .new_mechanics = to.mechanics, .map = &map};
       OK(TransferContextSetUp_Private(&c));
       OK(OldCellsFetch_Private(&c, &(OldFields){.u = u, .pressure = pressure}, &old));
-      OK(HPSpaceGetTables(to.space, &v));
+      v = HPSpaceGetTables(to.space);
       OK(PetscCalloc1(v->num_nodes * dim, &new_u));
       OK(MechanicsNumPressure(to.mechanics, &num));
       OK(PetscCalloc1(num, &new_pressure));

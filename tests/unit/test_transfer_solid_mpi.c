@@ -45,7 +45,7 @@ static void BilinearMultipliers(void **state)
   p.forest = PatchForest(2, 3);
   PatchRefine(&p.forest, 2);
   PatchStart(&p);
-  OK(InterfaceGetContact(ProblemInterface(p.problem), 0, &view));
+  view = InterfaceGetContact(ProblemInterface(p.problem), 0);
   OK(PetscMalloc1(view->nonmortar.num_nodes, &z));
   for (PetscInt n = 0; n < view->nonmortar.num_nodes; ++n) z[n] = Field(view->nonmortar.X + 3 * n);
   OK(InterfaceSetMultipliers(ProblemInterface(p.problem), 0, z, p.state.x));
@@ -86,10 +86,10 @@ static void RemovedMultipliers(void **state)
   PatchAdapt(p.forest, 1, PETSC_FALSE, &adapted, &map);
   OK(TransferOrders(&map, p.state.leaf_order, &orders));
   PatchProblem(&p.data, adapted, orders, &problem, &next);
-  OK(InterfaceGetContact(ProblemInterface(p.problem), 0, &from));
-  OK(InterfaceGetContact(ProblemInterface(problem), 0, &to));
-  OK(ForestGetTables(p.forest, &old_t));
-  OK(ForestGetTables(adapted, &new_t));
+  from  = InterfaceGetContact(ProblemInterface(p.problem), 0);
+  to    = InterfaceGetContact(ProblemInterface(problem), 0);
+  old_t = ForestGetTables(p.forest);
+  new_t = ForestGetTables(adapted);
   OK(PetscMalloc2(from->nonmortar.num_nodes, &z, from->nonmortar.num_nodes, &has));
   OK(PetscMalloc1(to->nonmortar.num_nodes, &new_z));
   for (PetscInt n = 0; n < from->nonmortar.num_nodes; ++n) {

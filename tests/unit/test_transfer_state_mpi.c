@@ -84,7 +84,7 @@ static void LinearMultipliers(void **state)
   PatchProblem(&p.data, p.forest, orders, &p.problem, &p.state);
   OK(PetscFree(orders));
   PatchSolve(p.problem, &p.state);
-  OK(InterfaceGetContact(ProblemInterface(p.problem), 0, &view));
+  view = InterfaceGetContact(ProblemInterface(p.problem), 0);
   OK(PetscMalloc1(view->nonmortar.num_nodes, &z));
   for (PetscInt n = 0; n < view->nonmortar.num_nodes; ++n) z[n] = 0.1 + 0.03 * view->nonmortar.X[2 * n];
   OK(InterfaceSetMultipliers(ProblemInterface(p.problem), 0, z, p.state.x));
@@ -116,8 +116,8 @@ static void FoldedCells(void **state)
   OK(ProblemInitialOrders(&p.data, p.forest, &orders));
   PatchProblem(&p.data, p.forest, orders, &p.problem, &p.state);
   OK(PetscFree(orders));
-  OK(ForestGetTables(p.forest, &t));
-  OK(HPSpaceGetTables(ProblemSpace(p.problem), &v));
+  t = ForestGetTables(p.forest);
+  v = HPSpaceGetTables(ProblemSpace(p.problem));
   OK(PetscMalloc1(t->num_leaves, &leaf));
   OK(PetscMalloc1(v->num_nodes * 2, &u));
   OK(FoldedFind(p.problem, p.state.x, &folded, leaf));

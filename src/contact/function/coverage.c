@@ -19,7 +19,7 @@ static PetscErrorCode Image_Private(RayWork w, const ContactSurface *mortar, Pet
     if (w->image[*place].node == node) PetscFunctionReturn(PETSC_SUCCESS);
   ContactRayParents(w, mortar, node, parent);
   for (int k = 0; k < 2 && parent[0] >= 0; k++) PetscCall(Image_Private(w, mortar, parent[k], &end[k]));
-  PetscCall(ContactGrow(w->num_images + 1, sizeof(RayImage), &w->size_image, &w->image));
+  PetscCall(ArrayGrow(w->num_images + 1, sizeof(RayImage), &w->size_image, &w->image));
   *place           = w->num_images++;
   image            = &w->image[*place];
   image->node      = node;
@@ -93,8 +93,8 @@ static PetscErrorCode Meet_Private(RayWork w, const ContactSurface *mortar, cons
 static PetscErrorCode Push_Private(RayWork w, const Overlap *o, PetscInt mortar)
 {
   PetscFunctionBegin;
-  PetscCall(ContactGrow(w->num_overlaps + 1, sizeof(Overlap), &w->size_overlap, &w->overlap));
-  PetscCall(ContactGrow(w->num_overlaps + 1, sizeof(PetscInt), &w->size_mortar, &w->mortar));
+  PetscCall(ArrayGrow(w->num_overlaps + 1, sizeof(Overlap), &w->size_overlap, &w->overlap));
+  PetscCall(ArrayGrow(w->num_overlaps + 1, sizeof(PetscInt), &w->size_mortar, &w->mortar));
   w->overlap[w->num_overlaps]  = *o;
   w->mortar[w->num_overlaps++] = mortar;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -137,7 +137,7 @@ static PetscErrorCode AddVertex_Private(RayWork w, PetscInt node)
   PetscFunctionBegin;
   for (PetscInt at = 0; at < w->num_mortar; at++)
     if (w->vertex[at] == node) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(ContactGrow(w->num_mortar + 1, sizeof(PetscInt), &w->size_vertex, &w->vertex));
+  PetscCall(ArrayGrow(w->num_mortar + 1, sizeof(PetscInt), &w->size_vertex, &w->vertex));
   w->vertex[w->num_mortar++] = node;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

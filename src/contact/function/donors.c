@@ -88,13 +88,11 @@ PetscErrorCode ContactDonorsPack(const MultiplierWork *w, ContactMultiplier *m)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ContactPairGetDonors(ContactPair pair, const PetscInt **first, const PetscInt **donor, const PetscReal **weight)
+void ContactPairGetDonors(ContactPair pair, const PetscInt **first, const PetscInt **donor, const PetscReal **weight)
 {
   const ContactMultiplier *m = pair->multiplier;
 
-  PetscFunctionBegin;
   *first  = m ? m->donor_first : NULL;
   *donor  = m ? m->donor : NULL;
   *weight = m ? m->donor_weight : NULL;
-  PetscFunctionReturn(PETSC_SUCCESS);
 }

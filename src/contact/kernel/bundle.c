@@ -26,7 +26,7 @@ PetscErrorCode ContactRayBalls(RayWork w, const ContactSurface *mortar)
   RayLattice facet;
 
   PetscFunctionBegin;
-  PetscCall(ContactGrow(mortar->num_facets, sizeof(RayBall), &w->size_ball, &w->ball));
+  PetscCall(ArrayGrow(mortar->num_facets, sizeof(RayBall), &w->size_ball, &w->ball));
   for (PetscInt f = 0; f < mortar->num_facets; f++) {
     ContactRayLatticeGather(mortar, f, &facet);
     Grow_Private(facet.num, facet.x, &w->ball[f]);

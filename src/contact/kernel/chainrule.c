@@ -11,7 +11,7 @@ static PetscErrorCode DirectionRows_Private(RayWork w, const ContactSurface *s, 
   const PetscInt nv = w->facet.nv, D = w->facet.D;
 
   PetscFunctionBegin;
-  PetscCall(ContactGrow(D * nv * w->nn, sizeof(PetscReal), &w->size_J, &w->J));
+  PetscCall(ArrayGrow(D * nv * w->nn, sizeof(PetscReal), &w->size_J, &w->J));
   PetscCall(PetscArrayzero(w->J, D * nv * w->nn));
   for (PetscInt v = 0; v < nv && !held; v++) PetscCall(ContactDirectionRows(w, s, ContactCorner(nv, facet, v), 1, &w->result, w->J + D * v * w->nn));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -81,7 +81,7 @@ PetscErrorCode ContactRayChain(RayWork w, const ContactSurface *nonmortar, Petsc
 
   PetscFunctionBegin;
   PetscCall(DirectionRows_Private(w, nonmortar, facet, held));
-  PetscCall(ContactGrow(f->m * w->num_images * width, sizeof(PetscReal), &w->size_R, &w->R));
+  PetscCall(ArrayGrow(f->m * w->num_images * width, sizeof(PetscReal), &w->size_R, &w->R));
   PetscCall(PetscArrayzero(w->R, f->m * w->num_images * width));
   for (PetscInt k = 0; k < w->num_images; k++)
     if (w->image[k].parent[0] < 0) ContactImageRows(f, &w->image[k], f->s.num + f->nv, width, w->R + f->m * k * width);
@@ -193,7 +193,7 @@ PetscErrorCode ContactRayChainHessian(RayWork w, PetscReal H[])
   PetscReal      *K, *B, *columns;
 
   PetscFunctionBegin;
-  PetscCall(ContactGrow(mi * rows + (rows + nn) * nodes + nd * nn, sizeof(PetscReal), &w->size_WJ, &w->WJ));
+  PetscCall(ArrayGrow(mi * rows + (rows + nn) * nodes + nd * nn, sizeof(PetscReal), &w->size_WJ, &w->WJ));
   K       = w->WJ + mi * rows;
   B       = K + rows * nodes;
   columns = B + nn * nodes;

@@ -37,11 +37,9 @@ PetscErrorCode ContactRayMortarTopology(RayWork w, const ContactSurface *mortar)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ContactPairGetMortarParents(ContactPair pair, const PetscInt **parent)
+const PetscInt *ContactPairGetMortarParents(ContactPair pair)
 {
-  PetscFunctionBegin;
-  *parent = pair->ray->mortar_parent;
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return pair->ray->mortar_parent;
 }
 
 PetscErrorCode ContactPairSetCarriers(ContactPair pair, const ContactSurface *nonmortar, const PetscBool carries[])
@@ -53,12 +51,10 @@ PetscErrorCode ContactPairSetCarriers(ContactPair pair, const ContactSurface *no
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ContactPairSetSoftness(ContactPair pair, const PetscReal softness[])
+void ContactPairSetSoftness(ContactPair pair, const PetscReal softness[])
 {
-  PetscFunctionBegin;
   pair->softness     = softness;
   pair->state.stands = PETSC_FALSE;
-  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode ContactRayWorkDestroy(RayWork *work)
@@ -68,26 +64,11 @@ PetscErrorCode ContactRayWorkDestroy(RayWork *work)
   PetscFunctionBegin;
   if (!w) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ContactResultDestroy(&w->result));
-  PetscCall(ContactFramesDestroy(w));
-  PetscCall(PetscFree(w->along));
+  PetscCall(PetscFree3(w->home, w->home_xi, w->frame));
   PetscCall(PetscFree7(w->ring_first, w->ring, w->sheet, w->end, w->parent, w->d, w->kept));
   PetscCall(PetscFree2(w->mortar_parent, w->mortar_middle));
-  PetscCall(PetscFree(w->ball));
-  PetscCall(PetscFree(w->image));
-  PetscCall(PetscFree(w->overlap));
-  PetscCall(PetscFree(w->mortar));
-  PetscCall(PetscFree(w->vertex));
-  PetscCall(PetscFree(w->place));
-  PetscCall(PetscFree(w->first_place));
-  PetscCall(PetscFree(w->dq));
-  PetscCall(PetscFree(w->W));
-  PetscCall(PetscFree(w->J));
-  PetscCall(PetscFree(w->R));
-  PetscCall(PetscFree(w->WJ));
-  PetscCall(PetscFree(w->part));
-  PetscCall(PetscFree(w->buffer));
-  PetscCall(PetscFree(w->T));
-  PetscCall(PetscFree(w->rows));
+  PetscCall(FreeAll(17, (void *[]){&w->along, &w->ball, &w->image, &w->overlap, &w->mortar, &w->vertex, &w->place, &w->first_place, &w->dq, &w->W, &w->J, &w->R,
+                                   &w->WJ, &w->part, &w->buffer, &w->T, &w->rows}));
   PetscCall(PetscFree(*work));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -145,7 +126,7 @@ static PetscErrorCode Nodes_Private(const EvaluateContext *ctx, PetscInt facet)
   w->result.num_rows  = multiplier->row_first[facet + 1] - first;
   for (PetscInt r = 0; r < w->result.num_rows; r++) PetscCall(ContactResultNode(&w->result, multiplier->row_node[first + r], &place));
   ContactFacetLattice(ctx->nonmortar, facet, &lattice);
-  PetscCall(ContactGrow(na + w->num_mortar + 1, sizeof(PetscInt), &w->result.size_row_first, &w->result.row_first));
+  PetscCall(ArrayGrow(na + w->num_mortar + 1, sizeof(PetscInt), &w->result.size_row_first, &w->result.row_first));
   for (PetscInt a = 0; a < na; a++) PetscCall(ContactResultRow(&w->result, ctx->nonmortar, lattice.node[a], PETSC_FALSE, a, &num));
   for (PetscInt v = 0; v < nv; v++) PetscCall(ContactDirectionNodes(w, ctx->nonmortar, nv * facet + v, &w->result));
   for (PetscInt r = 0; r < w->result.num_rows && ctx->pair->traction && w->facet.m == 2; r++)
@@ -164,7 +145,7 @@ static PetscErrorCode Functions_Private(RayWork w, const ContactMultiplier *mult
   const PetscReal *dual = multiplier->T + multiplier->offset[facet], *bernstein = multiplier->B + multiplier->offset[facet];
 
   PetscFunctionBegin;
-  PetscCall(ContactGrow(2 * num, sizeof(PetscReal), &w->size_T, &w->T));
+  PetscCall(ArrayGrow(2 * num, sizeof(PetscReal), &w->size_T, &w->T));
   ContactShareOf(w->facet.m, w->facet.s.order, share, w->across, &w->share);
   for (PetscInt i = 0; i < num; i++) {
     w->T[i]       = w->share.part ? w->share.theta[0] * dual[i] + (1 - w->share.theta[0]) * bernstein[i] : dual[i];
@@ -181,7 +162,7 @@ static PetscErrorCode Rows_Private(ContactPair pair, PetscInt from, PetscReal to
   const PetscReal *q = w->q + from, *dq = w->dq + from * n, *dshare = w->dq + 2 * na * n;
 
   PetscFunctionBegin;
-  PetscCall(ContactGrow(n * nr, sizeof(PetscReal), &w->size_rows, &w->rows));
+  PetscCall(ArrayGrow(n * nr, sizeof(PetscReal), &w->size_rows, &w->rows));
   PetscCall(PetscArrayzero(w->rows, n * nr));
   for (PetscInt r = 0; r < nr; r++) {
     PetscReal slope = 0;
@@ -210,7 +191,7 @@ static PetscErrorCode Hessian_Private(const EvaluateContext *ctx, PetscInt facet
   PetscReal     *gradient, *left, slope = 0.5 * w->share.kappa[1] * Q, curve = 0.25 * w->share.kappa[2] * Q;
 
   PetscFunctionBegin;
-  PetscCall(ContactGrow(2 * n, sizeof(PetscReal), &w->size_rows, &w->rows));
+  PetscCall(ArrayGrow(2 * n, sizeof(PetscReal), &w->size_rows, &w->rows));
   PetscCall(PetscArrayzero(w->rows, 2 * n));
   gradient = w->rows, left = gradient + n;
   for (PetscInt a = 0; a < na && w->share.part; a++) slope += y1[a] * w->q[a];
@@ -231,19 +212,15 @@ static PetscErrorCode Hessian_Private(const EvaluateContext *ctx, PetscInt facet
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ContactPairSetClosed(ContactPair pair, const PetscReal closed[])
+void ContactPairSetClosed(ContactPair pair, const PetscReal closed[])
 {
-  PetscFunctionBegin;
   pair->closed       = closed;
   pair->state.stands = PETSC_FALSE;
-  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ContactPairSetShared(ContactPair pair, const PetscBool shared[])
+void ContactPairSetShared(ContactPair pair, const PetscBool shared[])
 {
-  PetscFunctionBegin;
   pair->shared = shared;
-  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Has the facet whose rows are at hand nodes that other pairs constrain, too, and does its compliance for that matter to the evaluation? */
@@ -290,7 +267,7 @@ static PetscErrorCode Share_Private(ContactPair pair, PetscReal to[])
 
   PetscFunctionBegin;
   if (pair->held) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(ContactGrow(w->n, sizeof(PetscReal), &w->size_rows, &w->rows));
+  PetscCall(ArrayGrow(w->n, sizeof(PetscReal), &w->size_rows, &w->rows));
   PetscCall(PetscArraycpy(w->rows, w->dq + 2 * w->facet.s.num * w->n, w->n));
   ContactRayChainImages(w, 1, w->rows);
   ContactRayChainNodes(w, 1, w->rows, to);
@@ -440,7 +417,7 @@ PetscErrorCode ContactRayEvaluate(const EvaluateContext *ctx, PetscBool *failed)
     if (ctx->pair->dim == 3 && (ctx->pair->traction || ctx->pair->keeps)) PetscCall(ContactFrames(ctx->pair, ctx->nonmortar));
     if (ctx->pair->start[ctx->pair->num_listed]) PetscCall(ContactRayBalls(w, ctx->mortar));
     w->num_places = 0;
-    PetscCall(ContactGrow(ctx->pair->num_listed, sizeof(PetscInt), &w->size_first_place, &w->first_place));
+    PetscCall(ArrayGrow(ctx->pair->num_listed, sizeof(PetscInt), &w->size_first_place, &w->first_place));
   }
   PetscCall(ContactResultsEvaluate(ctx, &w->result, Facet_Private, failed));
   PetscFunctionReturn(PETSC_SUCCESS);

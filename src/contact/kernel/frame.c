@@ -7,13 +7,6 @@
      dt = A (dQ - a dm) + B dn,   A = 1 - (n + m) n^T / (1 + m.n),   B = - a 1 - (n + m) (Q - a m)^T / (1 + m.n). */
 #include "kernelimpl.h"
 
-PetscErrorCode ContactFramesDestroy(RayWork w)
-{
-  PetscFunctionBegin;
-  PetscCall(PetscFree3(w->home, w->home_xi, w->frame));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* Homes: the first facet that has the node. Of a node that only hanging ones depend on, on an edge of a coarse cell behind the surface, say, that of the one of
    them that depends on it the most. */
 static PetscErrorCode Homes_Private(RayWork w, const ContactSurface *s)
@@ -191,9 +184,7 @@ PetscErrorCode ContactPairGetTangents(ContactPair pair, PetscInt node, PetscReal
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ContactPairSetAxes(ContactPair pair, const PetscReal axis[])
+void ContactPairSetAxes(ContactPair pair, const PetscReal axis[])
 {
-  PetscFunctionBegin;
   pair->axis = axis;
-  PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -223,8 +223,8 @@ static PetscErrorCode Overlap_Private(RayWork w, const RayLattice *mortar, Petsc
   PetscFunctionBegin;
   ContactRaySplit(f, &w->overlap[k], &split);
   PetscCall(ContactRayRule(f, o, mortar->order, &points, &point, &weight));
-  PetscCall(ContactGrow(points * (b.nf + f->D * nq + 2 * own * b.no + f->m * (nq + 12) + f->nv + 7 * na) + 8 * (nq + 6), sizeof(PetscReal), &w->size_buffer,
-                        &w->buffer));
+  PetscCall(ArrayGrow(points * (b.nf + f->D * nq + 2 * own * b.no + f->m * (nq + 12) + f->nv + 7 * na) + 8 * (nq + 6), sizeof(PetscReal), &w->size_buffer,
+                      &w->buffer));
   b.basis         = w->buffer;
   b.right         = b.basis + points * b.nf;
   b.own_left      = b.right + points * f->D * nq;
@@ -276,7 +276,7 @@ static PetscErrorCode Image_Private(RayWork w, PetscInt k, const PetscReal gradi
   PetscFunctionBegin;
   if (along[0] == 0 && along[1] == 0) PetscFunctionReturn(PETSC_SUCCESS);
   while (w->vertex[at] != w->image[k].node) at++;
-  PetscCall(ContactGrow(width * width + 4 * width, sizeof(PetscReal), &w->size_part, &w->part));
+  PetscCall(ArrayGrow(width * width + 4 * width, sizeof(PetscReal), &w->size_part, &w->part));
   PetscCall(PetscArrayzero(w->part, width * width));
   ContactImageCurvature(f, &w->image[k], f->s.num + f->nv, along, width, w->part, w->part + width * width);
   for (PetscInt i = 0; i < width; i++)
@@ -309,7 +309,7 @@ PetscErrorCode ContactRayHessian(ContactPair pair, const ContactSurface *mortar,
 
   PetscFunctionBegin;
   PetscCall(PetscArrayzero(gradient, n));
-  PetscCall(ContactGrow(n * n, sizeof(PetscReal), &w->size_W, &w->W));
+  PetscCall(ArrayGrow(n * n, sizeof(PetscReal), &w->size_W, &w->W));
   PetscCall(PetscArrayzero(w->W, n * n));
   for (PetscInt k = 0; k < w->num_overlaps; k++) {
     PetscInt N, width;
@@ -317,7 +317,7 @@ PetscErrorCode ContactRayHessian(ContactPair pair, const ContactSurface *mortar,
     ContactRayLatticeGather(mortar, w->mortar[k], &facet);
     N     = f->D * (own + facet.num) + CORNERS;
     width = N - CORNERS + f->m * f->nv;
-    PetscCall(ContactGrow(N * N + 3 * pairs + N, sizeof(PetscReal), &w->size_part, &w->part));
+    PetscCall(ArrayGrow(N * N + 3 * pairs + N, sizeof(PetscReal), &w->size_part, &w->part));
     PetscCall(PetscArrayzero(w->part, N * N + 3 * pairs + N));
     pair_sums.turn  = w->part + N * N;
     pair_sums.twist = pair_sums.turn + 3 * f->nv * f->s.num;

@@ -377,7 +377,6 @@ PetscErrorCode ContactRayWorkDestroy(RayWork *);
 
 /* frame.c: friction in space. Axes of all nodes, after their directions; those of nodes without known neighbours are NaN. */
 PetscErrorCode ContactFrames(ContactPair, const ContactSurface *);
-PetscErrorCode ContactFramesDestroy(RayWork);
 /* Adds the nodes that those of a node depend on. rows[9][dim * nodes]: derivatives of e_1, e_2 and m by the nodes of the result, which has them all. */
 PetscErrorCode ContactFrameNodes(RayWork, const ContactSurface *, PetscInt node, Result *);
 PetscErrorCode ContactFrameRows(RayWork, const ContactSurface *, PetscInt node, Result *, PetscReal rows[]);

@@ -124,8 +124,8 @@ static PetscErrorCode Overlap_Private(RayWork w, const RayLattice *mortar, Petsc
   *good     = PETSC_TRUE;
   b.num = na, b.nq = nq, b.na = D * na;
   PetscCall(ContactRayRule(f, o, mortar->order, &points, &point, &weight));
-  PetscCall(ContactGrow(points * (na + nq + b.na + m * all) + m * (m + 1) * all, sizeof(PetscReal), &w->size_buffer, &w->buffer));
-  PetscCall(ContactGrow(w->num_places + simplices * points, sizeof(RayPlace), &w->size_places, &w->place));
+  PetscCall(ArrayGrow(points * (na + nq + b.na + m * all) + m * (m + 1) * all, sizeof(PetscReal), &w->size_buffer, &w->buffer));
+  PetscCall(ArrayGrow(w->num_places + simplices * points, sizeof(RayPlace), &w->size_places, &w->place));
   b.weight = w->buffer, b.gap = b.weight + points * na, b.area = b.gap + points * nq, b.along = b.area + points * b.na;
   b.corner = b.along + points * m * all;
   for (PetscInt i = 0; i < all; i++) q[i] = 0;
@@ -174,7 +174,7 @@ PetscErrorCode ContactRayMoments(ContactPair pair, const ContactSurface *mortar,
   PetscCall(PetscArrayzero(w->length, na));
   PetscCall(PetscArrayzero(w->q, w->num_moments));
   if (derivatives) {
-    PetscCall(ContactGrow(w->num_moments * w->n, sizeof(PetscReal), &w->size_dq, &w->dq));
+    PetscCall(ArrayGrow(w->num_moments * w->n, sizeof(PetscReal), &w->size_dq, &w->dq));
     PetscCall(PetscArrayzero(w->dq, w->num_moments * w->n));
   }
   for (PetscInt k = 0; k < w->num_overlaps; k++) {
@@ -185,7 +185,7 @@ PetscErrorCode ContactRayMoments(ContactPair pair, const ContactSurface *mortar,
 
     ContactRayLatticeGather(mortar, w->mortar[k], &facet);
     width = f->D * (own + facet.num) + RAY_IMAGES;
-    PetscCall(ContactGrow(w->num_moments * width, sizeof(PetscReal), &w->size_part, &w->part));
+    PetscCall(ArrayGrow(w->num_moments * width, sizeof(PetscReal), &w->size_part, &w->part));
     PetscCall(Overlap_Private(w, &facet, k, derivatives, q, w->part, &good));
     if (!good) {
       w->covered = covered, w->min_gap = gap, w->num_places = places;

@@ -42,26 +42,15 @@ PetscErrorCode ContactSlipDestroy(struct ContactSlip **slip)
   PetscFunctionBegin;
   if (!s) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ContactResultDestroy(&s->result));
-  PetscCall(PetscFree(s->kept));
-  PetscCall(PetscFree(s->met));
-  PetscCall(PetscFree(s->row));
-  PetscCall(PetscFree(s->weight));
-  PetscCall(PetscFree(s->start));
-  PetscCall(PetscFree(s->point));
-  PetscCall(PetscFree(s->A));
-  PetscCall(PetscFree(s->C));
-  PetscCall(PetscFree(s->facet));
-  PetscCall(PetscFree(s->ids));
+  PetscCall(FreeAll(10, (void *[]){&s->kept, &s->met, &s->row, &s->weight, &s->start, &s->point, &s->A, &s->C, &s->facet, &s->ids}));
   PetscCall(PetscFree(*slip));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ContactPairSetTraction(ContactPair pair, const PetscReal traction[])
+void ContactPairSetTraction(ContactPair pair, const PetscReal traction[])
 {
-  PetscFunctionBegin;
   pair->traction     = traction;
   pair->state.stands = PETSC_FALSE;
-  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscBool ContactSlipLoads(const EvaluateContext *ctx)
@@ -188,8 +177,8 @@ static PetscErrorCode KeepPoint_Private(void *context, RayWork w, PetscInt k, co
   PetscReal          *A;
 
   PetscFunctionBegin;
-  PetscCall(ContactGrow(s->num_points + 1, sizeof(Point), &s->size_point, &s->point));
-  PetscCall(ContactGrow(s->num_values + nr, sizeof(PetscReal), &s->size_A, &s->A));
+  PetscCall(ArrayGrow(s->num_points + 1, sizeof(Point), &s->size_point, &s->point));
+  PetscCall(ArrayGrow(s->num_values + nr, sizeof(PetscReal), &s->size_A, &s->A));
   A = s->A + s->num_values;
   for (PetscInt j = 0; j < nr; j++) {
     A[j] = 0;
@@ -210,7 +199,7 @@ static PetscErrorCode KeepCompliance_Private(const EvaluateContext *ctx, const C
 
   PetscFunctionBegin;
   if (!out->compliance) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(ContactGrow(s->num_C + n * n, sizeof(PetscReal), &s->size_C, &s->C));
+  PetscCall(ArrayGrow(s->num_C + n * n, sizeof(PetscReal), &s->size_C, &s->C));
   kept->micro = s->num_C;
   s->num_C += n * n;
   for (PetscInt i = 0; i < n * n; i++) {
@@ -230,10 +219,10 @@ static PetscErrorCode Keep_Private(const EvaluateContext *ctx, PetscInt facet, c
   Kept               *kept;
 
   PetscFunctionBegin;
-  PetscCall(ContactGrow(s->num_kept + 1, sizeof(Kept), &s->size_kept, &s->kept));
-  PetscCall(ContactGrow(s->num_rows + nr, sizeof(PetscInt), &s->size_row, &s->row));
-  PetscCall(ContactGrow(s->num_rows + nr, sizeof(PetscReal), &s->size_weight, &s->weight));
-  PetscCall(ContactGrow(2 * (s->num_rows + nr), sizeof(PetscReal), &s->size_start, &s->start));
+  PetscCall(ArrayGrow(s->num_kept + 1, sizeof(Kept), &s->size_kept, &s->kept));
+  PetscCall(ArrayGrow(s->num_rows + nr, sizeof(PetscInt), &s->size_row, &s->row));
+  PetscCall(ArrayGrow(s->num_rows + nr, sizeof(PetscReal), &s->size_weight, &s->weight));
+  PetscCall(ArrayGrow(2 * (s->num_rows + nr), sizeof(PetscReal), &s->size_start, &s->start));
   kept  = &s->kept[s->num_kept++];
   *kept = (Kept){.facet = facet, .num_rows = nr, .row = s->num_rows, .point = s->num_points, .value = s->num_values, .micro = -1};
   for (PetscInt j = 0; j < nr; j++) {
@@ -288,7 +277,7 @@ PetscErrorCode ContactPairKeepPoints(ContactPair pair, const ContactSurface *non
   pair->keeps = pair->state.stands = PETSC_FALSE;
   if (*failed) s->num_kept = s->num_rows = s->num_points = s->num_values = 0;
   s->num_first = s->num_kept;
-  PetscCall(ContactGrow(nonmortar->num_facets, sizeof(PetscBool), &s->size_met, &s->met));
+  PetscCall(ArrayGrow(nonmortar->num_facets, sizeof(PetscBool), &s->size_met, &s->met));
   PetscCall(PetscArrayzero(s->met, nonmortar->num_facets));
   for (PetscInt i = 0; i < s->num_kept; i++) {
     s->met[s->kept[i].facet] = PETSC_TRUE;
@@ -329,7 +318,7 @@ static PetscErrorCode Vertices_Private(ContactPair pair, const Kept *kept, const
     }
     if (k >= 0) first[k] = vertex;
     ContactFacetLattice(side, facet, &l);
-    PetscCall(ContactGrow(vertex + l.num + 1, sizeof(PetscInt), &r->size_row_first, &r->row_first));
+    PetscCall(ArrayGrow(vertex + l.num + 1, sizeof(PetscInt), &r->size_row_first, &r->row_first));
     for (PetscInt a = 0; a < l.num; a++, vertex++) PetscCall(ContactResultRow(r, side, l.node[a], (PetscBool)(k >= 0), vertex, &num));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -447,10 +436,10 @@ PetscErrorCode ContactPairSlip(ContactPair pair, const ContactSurface *nonmortar
   if (s->num_kept) PetscCall(Turn_Private(pair, nonmortar));
   s->result.store.at = s->result.store.used = 0;
   s->num_ids                                = 0;
-  PetscCall(ContactGrow(s->num_kept, sizeof(ContactFacet), &s->size_facet, &s->facet));
+  PetscCall(ArrayGrow(s->num_kept, sizeof(ContactFacet), &s->size_facet, &s->facet));
   for (PetscInt i = 0; i < s->num_kept; i++) {
     PetscCall(Slip_Private(pair, &s->kept[i], nonmortar, mortar, &s->facet[i]));
-    PetscCall(ContactGrow(s->num_ids + s->facet[i].num, sizeof(PetscInt), &s->size_ids, &s->ids));
+    PetscCall(ArrayGrow(s->num_ids + s->facet[i].num, sizeof(PetscInt), &s->size_ids, &s->ids));
     PetscCall(PetscArraycpy(s->ids + s->num_ids, s->result.node, s->facet[i].num));
     s->num_ids += s->facet[i].num;
   }
