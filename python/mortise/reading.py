@@ -196,6 +196,8 @@ class Run:
 
     def __init__(self, directory, passes=False):
         self.directory = pathlib.Path(directory)
+        if not self.directory.is_dir():
+            raise FileNotFoundError(f"there is no directory {directory}")
         index = self.directory / "passes.xdmf"  # there where a load step has several
         if not passes or not index.exists():
             index = self.directory / "fields.xdmf"

@@ -60,8 +60,11 @@ def sweep(scene, key, values, directory=None, jobs=1, **options):
     """{value: results} of the scene with key set to each value, in directories of their own below `directory` (default: out/<scene>_<key>); jobs at a time."""
     below = pathlib.Path(directory or pathlib.Path("out") / f"{pathlib.Path(scene).stem}_{key}")
     keys = options.pop("keys", None) or {}
+    names = {value: word(value).replace("/", "_").replace("..", "_") for value in values}
+    if len(set(names.values())) < len(names):
+        names = {value: f"{name}_{place}" for place, (value, name) in enumerate(names.items())}
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
-        futures = {value: pool.submit(run, scene, {**keys, key: value}, below / word(value).replace("/", "_"), **options) for value in values}
+        futures = {value: pool.submit(run, scene, {**keys, key: value}, below / names[value], **options) for value in values}
         return {value: future.result() for value, future in futures.items()}
 
 

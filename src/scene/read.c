@@ -50,6 +50,8 @@ static PetscErrorCode ReadGeneral_Private(Scene s)
   PetscCheckInput(d->adapt.repeat == REPEAT_STEP || d->adapt.history == HISTORY_CARRIED,
                   "%s cannot act with adapt.repeat: path, which carries nothing over; allowed with it: carried",
                   NodeWhere(NodeFind(NodeFind(s->root, "adapt"), "history")));
+  if (NodeFind(s->root, "adapt") && !NodeFind(NodeFind(s->root, "adapt"), "tolerance"))
+    PetscCall(PetscPrintf(s->comm, "note: %s has no tolerance: nothing is adapted, and its other keys do nothing\n", NodeWhere(NodeFind(s->root, "adapt"))));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

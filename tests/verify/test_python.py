@@ -73,3 +73,17 @@ def test_runs_and_reads(tmp_path, monkeypatch):
     assert np.all(runs[0].contact().point["contact_pressure"] == 0)  # round-off is no pressure
     with pytest.raises(mortise.WrongInput, match="material.rubber.nu: 0.7 is not between"):
         mortise.run(ROOT / "inputs" / "patch2d.yml", {"material.rubber.nu": 0.7}, tmp_path / "out" / "wrong")
+
+
+def test_places_of_their_own(tmp_path):
+    """A sweep keeps runs apart whose values are written alike, and below its directory; what is not there is no empty run."""
+    from mortise import running
+    places = []
+    kept, running.run = running.run, lambda scene, keys, directory, **options: places.append(directory)
+    try:
+        running.sweep("s.yml", "mesh.file", ["a/b", "a_b", ".."], directory=tmp_path)
+    finally:
+        running.run = kept
+    assert len(set(places)) == 3 and all(tmp_path in place.resolve().parents for place in places)
+    with pytest.raises(FileNotFoundError, match="there is no directory"):
+        mortise.Run(tmp_path / "none")
