@@ -69,7 +69,7 @@ static void Long(void **state)
 static void Amplitudes(void **state)
 {
   PetscReal       pairs[] = {0, 0, 1, 2, 3, 2, 4, -1};
-  const Amplitude a = {.num = 4, .pairs = pairs}, ramp = {.num = 0}, endless = {.endless = PETSC_TRUE};
+  const Amplitude a = {.num = 4, .pairs = pairs}, ramp = {.num = 0}, endless = {.endless = PETSC_TRUE}, on = {.num = 4, .pairs = pairs, .endless = PETSC_TRUE};
 
   assert_float_equal(AmplitudeEvaluate(&ramp, 0.3), 0.3, 1e-15);
   assert_float_equal(AmplitudeEvaluate(&ramp, 5), 1, 0);
@@ -80,6 +80,8 @@ static void Amplitudes(void **state)
   assert_float_equal(AmplitudeEvaluate(&a, 2), 2, 1e-15);
   assert_float_equal(AmplitudeEvaluate(&a, 3.5), 0.5, 1e-15);
   assert_float_equal(AmplitudeEvaluate(&a, 9), -1, 0);
+  assert_float_equal(AmplitudeEvaluate(&on, 9), pairs[7] + (9 - pairs[6]) * (pairs[7] - pairs[5]) / (pairs[6] - pairs[4]), 1e-14);
+  assert_float_equal(AmplitudeEvaluate(&on, 0.5), 1, 1e-15);
 }
 
 int main(int argc, char **argv)

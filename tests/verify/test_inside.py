@@ -78,3 +78,22 @@ def test_corner_of_a_coil(run):
     result = run("tests/gauntlet/coil.yml", "-output_fields", "false")
     assert result.returncode == 0 and result.summary["refused_solutions"] == 0 and result.summary["newton_iterations"] < 200, result
     assert result.summary["energy"] == pytest.approx(0.00054735, rel=0.006), result  # that of the gauntlet, which need not run it again
+
+
+@pytest.mark.parametrize("dim,across,ranks", [(2, 0, 1), (2, 0.03, 2), (3, 0.03, 1)])
+def test_without_a_pair(run, tmp_path, dim, across, ranks):
+    """Bodies that no pair is between pass through each other, and the run says so, where their nodes meet, too."""
+    text = json.loads(scene(tmp_path, dim, [1.001], [0.3], across=across)) | {"contact": {}}
+    result = run("s.yml", "-load_step", 0.5, text=json.dumps(text), ranks=ranks)
+    assert result.returncode == 0 and result.stdout.count("overlap at t = 0.5") == 1 and "no contact pair is between them" in result.stdout, result
+    apart = run("s.yml", text=json.dumps(text | {"boundary": text["boundary"] | {"top_small0": {"fix": "xyz"[:dim]}}}), ranks=ranks)
+    assert apart.returncode == 0 and "overlap" not in apart.stdout, apart
+
+
+@pytest.mark.parametrize("roles", ["auto", "given"])
+def test_the_two_faces_of_one_body(run, tmp_path, roles):
+    """A pair of the top and the bottom of a block, by mistake, does not take the block for an overlap."""
+    text = json.loads(scene(tmp_path, 2, [1.2], [0.1]))
+    text["contact"] = {"wrong": {"nonmortar": "top_large", "mortar": "bottom_large", "roles": roles}}
+    result = run("s.yml", text=json.dumps(text))
+    assert result.returncode == 0 and result.summary["newton_iterations"] < 10 and "have not touched" in result.stdout, result
