@@ -1,7 +1,7 @@
 /* What is looked at after each accepted load step: states that the equations allow and their user may not mean. Told once. */
 #include "appimpl.h"
 
-#define ROUGH 0.5 /* estimate, of the norm of the largest solution, above which figures say little */
+#define ROUGH 0.5 /* estimate, of the norm of the largest solution, above which stresses say little */
 
 static PetscErrorCode WatchPassage_Private(App *app)
 {
@@ -226,9 +226,13 @@ PetscErrorCode AppWarn(App *app)
   PetscCall(WarnFolded_Private(app));
   PetscCall(WarnAdrift_Private(app));
   PetscCall(WarnFlow_Private(app));
-  if (app->rough_error > ROUGH * app->rough_norm)
-    PetscCall(WarningAdd(app->comm, "the estimated error is up to %.3g %% of the largest solution, at t = %.6g: figures of this run say little",
-                         100 * (double)(app->rough_error / app->rough_norm), (double)app->rough_t));
+  if (app->rough_error > ROUGH * app->rough_norm) {
+    const PetscReal share = app->rough_error / app->rough_norm;
+    PetscCall(WarningAdd(app->comm,
+                         "the estimated error is up to %.3g %% of the largest solution, at t = %.6g: stresses of this run say little, and the energy, with it "
+                         "forces, may be off by %.2g %%",
+                         100 * (double)share, (double)app->rough_t, 100 * (double)PetscSqr(share)));
+  }
   if (app->path.unstable > 0)
     PetscCall(WarningAdd(app->comm, "%" PetscInt_FMT " %s unstable, the first %sat t = %.6g: the least disturbance would lead to another equilibrium",
                          app->path.unstable, app->path.unstable == 1 ? "solution is" : "solutions are", app->restart[0] ? "since the restart " : "",
