@@ -234,6 +234,27 @@ static PetscErrorCode TellCoincident_Private(Scene s, Forest forest, const Coars
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+#define DIGITS 1e-10 /* of the mesh's size, to which its coordinates must be told: the residual's default tolerance */
+
+/* Coordinates far from the origin have few digits left for what happens in the bodies. */
+static PetscErrorCode TellFar_Private(Scene s, const CoarseMesh *m)
+{
+  PetscReal lo[3], hi[3], far = 0, size = 0;
+
+  PetscFunctionBegin;
+  ForestCoarseBox(m, lo, hi);
+  for (PetscInt c = 0; c < 3; ++c) {
+    far = PetscMax(far, PetscMax(PetscAbsReal(lo[c]), PetscAbsReal(hi[c])));
+    size += PetscSqr(hi[c] - lo[c]);
+  }
+  size = PetscSqrtReal(size);
+  if (far * PETSC_MACHINE_EPSILON > DIGITS * size)
+    PetscCall(WarningAdd(
+        s->comm, "the mesh is %.2g times as far from the origin as it is large: its coordinates have few digits left, and Newton's method may stall; move it",
+        (double)(far / size)));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SceneTellMesh(Scene s, Forest forest)
 {
   const CoarseMesh *m = ForestGetCoarse(forest);
@@ -242,6 +263,7 @@ PetscErrorCode SceneTellMesh(Scene s, Forest forest)
   if (m->from_simplices || s->subdivided)
     PetscCall(WarningAdd(s->comm, "the mesh is of tetrahedra, each split into 4 hexahedra: %" PetscInt_FMT " cells come of it, of worse shape than others",
                          m->num_cells));
+  PetscCall(TellFar_Private(s, m));
   PetscCall(TellPieces_Private(s, m));
   PetscCall(TellCoincident_Private(s, forest, m));
   PetscCall(SceneTellChords(s, forest));

@@ -280,3 +280,10 @@ def test_stiff_beyond_round_off(run, tmp_path):
         result = run("s.yml", text=ALONE.replace("{lower: {material: rubber}}", "{lower: {material: rubber}, side: {material: stiff}}")
                      .replace("{rubber:", f"{{stiff: {{law: neo_hookean, E: {E}, nu: 0.3}}, rubber:"))
         assert result.returncode == status and (status == 0 or "more than 1e10 times that of material rubber" in result.stderr), result
+
+
+def test_far_from_the_origin(run, tmp_path):
+    for far in (0, 1e8):
+        (tmp_path / "m.msh").write_text(msh([(x + far, y) for x, y in SQUARE]))
+        result = run("s.yml", "-check", text=ALONE)
+        assert result.returncode == 0 and ("times as far from the origin as it is large" in result.stdout) == (far > 0), result
