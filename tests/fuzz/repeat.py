@@ -9,6 +9,7 @@ that many cores busy meanwhile. A line a run: seconds, what other processes than
 no run failed.
 """
 import argparse
+import os
 import pathlib
 import resource
 import subprocess
@@ -20,7 +21,6 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 def machine():
     """Processor seconds that the machine has used since it started."""
-    import os
     ticks = [int(x) for x in open("/proc/stat").readline().split()[1:9]]
     return (sum(ticks) - ticks[3] - ticks[4]) / os.sysconf("SC_CLK_TCK")
 
