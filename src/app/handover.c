@@ -1,11 +1,29 @@
 /* The displacement for PETSc's own tools, at the end of a run: a vector on the leaf DM with a PetscFE of the highest order, through the viewers that PETSc has.
  */
 #include "appimpl.h"
+#include <errno.h>
 #include <petscdmplex.h>
+#include <unistd.h>
 
 #define OPTION "-solution_view"
 
 static const char *const Viewers[] = {"vtk:", "hdf5:", "binary:"};
+
+/* The file of viewer:file[:format], that it can be written at the end of a run. */
+static PetscErrorCode CheckFile_Private(const char *text)
+{
+  const char *file   = strchr(text, ':') + 1;
+  const int   length = (int)strcspn(file, ":");
+  char        directory[PETSC_MAX_PATH_LEN];
+
+  PetscFunctionBegin;
+  PetscCheckInput(strncmp(text, "vtk:", 4) || (length > 4 && !strncmp(file + length - 4, ".vtu", 4)), OPTION " is '%s'; a file of vtk ends in .vtu", text);
+  PetscCall(PetscSNPrintf(directory, sizeof(directory), "%.*s", length, file));
+  char *const slash = strrchr(directory, '/');
+  PetscCall(PetscStrncpy(slash ? slash + 1 : directory, slash ? "" : ".", 2));
+  PetscCheckInput(!access(directory, W_OK | X_OK), OPTION " is '%s': %s cannot be written to: %s", text, directory, strerror(errno));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
 
 PetscErrorCode AppCheckHandOver(void)
 {
@@ -19,6 +37,7 @@ PetscErrorCode AppCheckHandOver(void)
     known          = (PetscBool)(known || (!strncmp(text, Viewers[i], n) && text[n]));
   }
   PetscCheckInput(!set || known, OPTION " is '%s'; allowed: %s", text, APP_SOLUTION_VIEW);
+  if (set) PetscCall(CheckFile_Private(text));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
