@@ -45,10 +45,9 @@ static PetscReal Height_Private(const Piece *p, const PetscReal x[3])
   return p->N[0] * (x[0] - p->x[0]) + p->N[1] * (x[1] - p->x[1]) + p->N[2] * (x[2] - p->x[2]);
 }
 
-/* Does the segment a-b, with these heights above the piece, cut it? Not where it ends. At the border of the piece it does where they are of two parts; of one,
-   there hanging corners meet what they hang on. */
-static PetscBool Cuts_Private(PetscInt dim, const Piece *p, const PetscReal a[3], const PetscReal b[3], PetscReal ha, PetscReal hb, PetscReal off,
-                              PetscBool apart)
+/* Does the segment a-b, with these heights above the piece, cut it? Neither where it ends nor at the border of the piece: there hanging corners meet what they
+   hang on. */
+static PetscBool Cuts_Private(PetscInt dim, const Piece *p, const PetscReal a[3], const PetscReal b[3], PetscReal ha, PetscReal hb, PetscReal off)
 {
   PetscReal y[3], edge[3], to[3], turn[3];
 
@@ -58,23 +57,25 @@ static PetscBool Cuts_Private(PetscInt dim, const Piece *p, const PetscReal a[3]
     const PetscReal *from = p->x + 3 * k, *on = p->x + 3 * ((k + 1) % dim);
     for (PetscInt c = 0; c < 3; ++c) edge[c] = on[c] - from[c], to[c] = y[c] - from[c];
     Cross3(edge, to, turn);
-    if ((dim == 2 ? Dot3(edge, to) : Dot3(turn, p->N)) <= (apart ? -off : off) * PetscSqrtReal(Dot3(edge, edge)))
-      return PETSC_FALSE; /* this far from its border */
+    if ((dim == 2 ? Dot3(edge, to) : Dot3(turn, p->N)) <= off * PetscSqrtReal(Dot3(edge, edge))) return PETSC_FALSE; /* this far from its border */
   }
   return PETSC_TRUE;
 }
 
-/* How deep corners of q lie behind p where an edge of q cuts p; 0: none does. */
+/* How deep corners of q lie behind p where an edge of q cuts p; 0: none does. Of two parts that of q is taken for smaller than it is, by twice what is cut at
+   the border of p: sides that lie flush do not cut then, and those that run through a corner of p do beside it. */
 static PetscReal Depth_Private(PetscInt dim, const Piece *p, const Piece *q)
 {
-  const PetscReal off = DEEP * PetscMin(p->size, q->size);
-  PetscReal       height[3], depth = 0;
+  const PetscReal off = DEEP * PetscMin(p->size, q->size), less = p->part == q->part ? 0 : 2 * off;
+  PetscReal       x[9], height[3], depth = 0;
 
-  for (PetscInt a = 0; a < dim; ++a) height[a] = Height_Private(p, q->x + 3 * a);
+  for (PetscInt a = 0; a < dim; ++a) {
+    for (PetscInt c = 0; c < 3; ++c) x[3 * a + c] = q->x[3 * a + c] - less * q->N[c];
+    height[a] = Height_Private(p, x + 3 * a);
+  }
   for (PetscInt a = 0; a < (dim == 2 ? 1 : 3); ++a) {
     const PetscInt b = (a + 1) % dim;
-    if (Cuts_Private(dim, p, q->x + 3 * a, q->x + 3 * b, height[a], height[b], off, (PetscBool)(p->part != q->part)))
-      depth = PetscMax(depth, -PetscMin(height[a], height[b]));
+    if (Cuts_Private(dim, p, x + 3 * a, x + 3 * b, height[a], height[b], off)) depth = PetscMax(depth, -PetscMin(height[a], height[b]));
   }
   return depth;
 }
