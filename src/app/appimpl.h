@@ -65,6 +65,7 @@ typedef struct {
   PetscReal        folded_t;                         /* … and its time */
   PetscReal        unstable_t;                       /* when a solution was first found unstable … */
   PetscBool        unstable_known, passage_told;     /* … if one was; that a surface passes through itself */
+  PetscBool        flowed, flowed_coarse;            /* material at the accepted state; before a mesh was refined that went on from there */
   PetscBool        apart_told;                       /* that bodies pass through each other that no pair is between */
   PetscReal        most_scale;                       /* largest ProblemStatus.scale of an accepted step */
   Adrift          *adrift;                           /* owned [num_bodies] */

@@ -130,6 +130,7 @@ PetscErrorCode AppWatch(App *app)
 
   PetscFunctionBegin;
   WatchEstimate_Private(app);
+  app->flowed = (PetscBool)(app->balance.plastic_strain > 0);
   if (app->path.unstable > 0 && !app->unstable_known) app->unstable_t = app->level.accepted.t;
   app->unstable_known = (PetscBool)(app->path.unstable > 0);
   PetscCall(WatchPassage_Private(app));

@@ -50,6 +50,7 @@ def test_last_path_is_that_of_its_mesh(block):
     result, fine, step = block(*TWO), block("-mesh_refine", 1, "-adapt_tolerance", 0), block("-adapt_tolerance", 0.3, "-adapt_fraction", 1, "-adapt_max_cells", 36)
     assert_same_path(result.history, fine.history)
     assert abs(step.history[-1]["plastic.work"] / fine.history[-1]["plastic.work"] - 1) > 1e-6
+    assert ["refined after material had flowed" in run.stdout for run in (result, fine, step)] == [False, False, True]
     assert [(row["pass"], row["step"]) for row in result.history] == [(1, k) for k in range(1, 7)]
     assert [(row["pass"], row["step"]) for row in result.adapt] == [(p, k) for p in (0, 1) for k in range(1, 7)]
     assert all(row["accepted"] and row["cells"] == (9, 36)[int(row["pass"])] for row in result.adapt)
