@@ -65,6 +65,7 @@ typedef struct {
   PetscReal x[3];    /* about there */
   PetscInt  body[2]; /* bodies of one part: one body, or two that are joined */
   PetscInt  pair;    /* a contact of the scene that has one of both facets there, -1: none */
+  PetscBool none;    /* of PassageFindApart: all parts may meet each other, and will */
   PetscBool whole;   /* the first lies wholly inside the second; no surface crosses, and there is no depth */
   PetscReal box[6];  /* around all facets that cut others */
 } Passage;

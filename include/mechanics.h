@@ -38,6 +38,11 @@ static inline PetscBool BoundaryHasPressure(const BoundarySpec *b)
   return (PetscBool)(b->pressure || BoundaryIsControlled(b));
 }
 
+static inline PetscBool BoundaryHasTraction(const BoundarySpec *b)
+{
+  return (PetscBool)(b->traction[0] || b->traction[1] || b->traction[2]);
+}
+
 /* The key of the scene that puts a pressure on it. */
 static inline const char *BoundaryPressureKey(const BoundarySpec *b)
 {

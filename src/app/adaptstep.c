@@ -116,7 +116,7 @@ static PetscErrorCode RefineOnce_Private(App *app, RefineMode mode, MarkList *la
     PetscCall(LevelDestroy(&old));
     ++app->passes_in_step;
     ++app->adapt_passes;
-    app->flowed_coarse = (PetscBool)(app->flowed_coarse || app->flowed);
+    app->flowed_coarse += app->flowed;
   } else {
     PetscCall(LevelDestroy(&app->level));
     app->level      = old;

@@ -185,10 +185,6 @@ PetscErrorCode AppAdvise(const App *app)
   if (whole)
     PetscCall(
         PetscPrintf(app->comm, "note: the path on the mesh before came to its end; its results are in %s/" OUTPUT_ASIDE "\n", app->data->output.directory));
-  if (app->flowed_coarse)
-    PetscCall(PetscPrintf(app->comm,
-                          "note: cells were refined after material had flowed: that is the flow of the coarser cells, and the error estimate does not "
-                          "know of it; adapt.repeat: path begins again on the finer mesh\n"));
   if (!app->failure && !app->path.stopped && !app->restart[0]) {
     PetscCall(Untouched_Private(app));
     PetscCall(Needless_Private(app));

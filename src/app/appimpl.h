@@ -65,8 +65,8 @@ typedef struct {
   PetscReal        folded_t;                         /* … and its time */
   PetscReal        unstable_t;                       /* when a solution was first found unstable … */
   PetscBool        unstable_known, passage_told;     /* … if one was; that a surface passes through itself */
-  PetscBool        flowed, flowed_coarse;            /* material at the accepted state; before a mesh was refined that went on from there */
-  PetscBool        apart_told;                       /* that bodies pass through each other that no pair is between */
+  PetscInt         flowed, flowed_coarse;            /* has material at the accepted state; meshes refined after that, which went on from there */
+  PetscBool        apart_known;                      /* bodies that no pair is between: there are none, or that they pass through each other is told */
   PetscReal        most_scale;                       /* largest ProblemStatus.scale of an accepted step */
   Adrift          *adrift;                           /* owned [num_bodies] */
   PetscBool        mirror[3];                        /* planes of symmetry that are not used (NeedsFindMirrors) … */

@@ -15,13 +15,18 @@ static PetscErrorCode CheckFile_Private(const char *text)
   const char *file   = strchr(text, ':') + 1;
   const int   length = (int)strcspn(file, ":");
   char        directory[PETSC_MAX_PATH_LEN];
+  PetscMPIInt rank;
+  int         error = 0;
 
   PetscFunctionBegin;
   PetscCheckInput(strncmp(text, "vtk:", 4) || (length > 4 && !strncmp(file + length - 4, ".vtu", 4)), OPTION " is '%s'; a file of vtk ends in .vtu", text);
   PetscCall(PetscSNPrintf(directory, sizeof(directory), "%.*s", length, file));
   char *const slash = strrchr(directory, '/');
   PetscCall(PetscStrncpy(slash ? slash + 1 : directory, slash ? "" : ".", 2));
-  PetscCheckInput(!access(directory, W_OK | X_OK), OPTION " is '%s': %s cannot be written to: %s", text, directory, strerror(errno));
+  PetscCallMPI(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
+  if (rank == 0 && access(directory, W_OK | X_OK)) error = errno;
+  PetscCallMPI(MPI_Bcast(&error, 1, MPI_INT, 0, PETSC_COMM_WORLD));
+  PetscCheckInput(!error, OPTION " is '%s': %s cannot be written to: %s", text, directory, strerror(error));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -27,6 +27,8 @@ static const struct {
     {"folded_left", offsetof(App, path.folded_left)},
     {"descent_iterations", offsetof(App, path.descent_iterations)},
     {"missed", offsetof(App, num_missed)},
+    {"flowed", offsetof(App, flowed)},
+    {"refined_after_flow", offsetof(App, flowed_coarse)},
 };
 static const struct {
   const char *name;

@@ -31,11 +31,12 @@ static PetscErrorCode WatchApart_Private(App *app, const char *where)
   Passage p;
 
   PetscFunctionBegin;
-  if (app->apart_told) PetscFunctionReturn(PETSC_SUCCESS);
+  if (app->apart_known) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PassageFindApart(app->level.problem, &app->level.accepted, &p));
+  if (p.none) app->apart_known = PETSC_TRUE;
   if (!(p.depth > 0) && !p.whole) PetscFunctionReturn(PETSC_SUCCESS);
   const CoarseMesh *mesh = ForestGetCoarse(app->level.forest);
-  app->apart_told        = PETSC_TRUE;
+  app->apart_known       = PETSC_TRUE;
   if (p.whole)
     PetscCall(WarningAdd(app->comm,
                          "body %s lies wholly inside body %s %s, at (%.4g, %.4g, %.4g), and no contact pair is between them: each is blind to the other",
@@ -130,7 +131,7 @@ PetscErrorCode AppWatch(App *app)
 
   PetscFunctionBegin;
   WatchEstimate_Private(app);
-  app->flowed = (PetscBool)(app->balance.plastic_strain > 0);
+  app->flowed = app->balance.plastic_strain > 0;
   if (app->path.unstable > 0 && !app->unstable_known) app->unstable_t = app->level.accepted.t;
   app->unstable_known = (PetscBool)(app->path.unstable > 0);
   PetscCall(WatchPassage_Private(app));
@@ -141,12 +142,17 @@ PetscErrorCode AppWatch(App *app)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Load steps too long for plastic flow: they leave more than was asked for, or than the mesh does. */
+/* What the estimate does not know of plastic flow: that of coarser cells, carried over; load steps too long for it, which leave more than was asked for, or
+   than the mesh does. */
 static PetscErrorCode WarnFlow_Private(App *app)
 {
   const PetscReal norm = PetscSqrtReal(2 * app->path.status.energy), most = PetscMax(app->data->adapt.tolerance, app->last.estimated_error);
 
   PetscFunctionBegin;
+  if (app->flowed_coarse)
+    PetscCall(WarningAdd(app->comm,
+                         "cells were refined after material had flowed: that is the flow of the coarser cells, and the error estimate does not know of "
+                         "it; adapt.repeat: path begins again on the finer mesh"));
   if (norm > 0 && app->path.flow_error > most * norm)
     PetscCall(WarningAdd(app->comm,
                          "the load steps leave an error of about %.2g %% where material flows, in the energy norm: take shorter ones (load.step_max)",

@@ -315,6 +315,21 @@ static PetscErrorCode FindEnclosed_Private(MPI_Comm comm, const Pieces *s, const
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* May all parts meet each other? They hang together as they do, whatever the state. */
+static PetscErrorCode AllMeet_Private(MPI_Comm comm, const Pieces *s, const Which *which, PetscBool *all)
+{
+  Piece   *sample;
+  PetscInt num;
+
+  PetscFunctionBegin;
+  PetscCall(Samples_Private(comm, s, &num, &sample));
+  *all = PETSC_TRUE;
+  for (PetscInt a = 0; a < num; ++a)
+    for (PetscInt b = 0; b < a; ++b) *all = (PetscBool)(*all && !Counts_Private(s, which, &sample[a], &sample[b]));
+  PetscCall(PetscFree(sample));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* ---- what is asked ---------------------------------------------------------------------------------------------------------------------- */
 
 PetscErrorCode PassageFind(Problem problem, const State *state, PetscInt group, Passage *worst)
@@ -338,9 +353,15 @@ PetscErrorCode PassageFindApart(Problem problem, const State *state, Passage *wo
   PetscFunctionBegin;
   PetscCall(PiecesCollect_Private(problem, state, PETSC_TRUE, &s));
   PetscCall(PiecesParts_Private(&s, ForestComm(forest), &which.sides));
-  PetscCall(FindEnclosed_Private(ForestComm(forest), &s, &which, &whole));
-  PetscCall(Find_Private(ForestComm(forest), &s, &which, worst));
-  if (!(worst->depth > 0)) *worst = whole;
+  *worst = (Passage){.depth = 0};
+  PetscCall(AllMeet_Private(ForestComm(forest), &s, &which, &worst->none));
+  if (worst->none)
+    PetscCall(PetscFree(s.piece));
+  else {
+    PetscCall(FindEnclosed_Private(ForestComm(forest), &s, &which, &whole));
+    PetscCall(Find_Private(ForestComm(forest), &s, &which, worst));
+    if (!(worst->depth > 0)) *worst = whole;
+  }
   PetscCall(PetscFree(which.sides));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

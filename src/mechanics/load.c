@@ -8,7 +8,7 @@ PetscInt MechanicsOutwardSign_Private(PetscInt side)
 
 static PetscBool HasLoad_Private(const BoundarySpec *b)
 {
-  return (PetscBool)(BoundaryHasPressure(b) || b->traction[0] || b->traction[1] || b->traction[2]);
+  return (PetscBool)(BoundaryHasPressure(b) || BoundaryHasTraction(b));
 }
 
 /* Closure index of a side of a leaf: 1 in every direction but the side's. */
@@ -148,7 +148,7 @@ static PetscBool AnyDeadLoad_Private(Mechanics m)
 {
   for (PetscInt b = 0; b < m->spec->num_boundaries; ++b) {
     const BoundarySpec *s = &m->spec->boundaries[b];
-    if (s->traction[0] || s->traction[1] || s->traction[2]) return PETSC_TRUE;
+    if (BoundaryHasTraction(s)) return PETSC_TRUE;
   }
   for (PetscInt b = 0; b < m->spec->num_bodies; ++b) {
     const BodySpec *s = &m->spec->bodies[b];
@@ -169,7 +169,7 @@ PetscErrorCode MechanicsDeadLoads_Private(Mechanics m)
   PetscCall(PetscMalloc1(3 * (MORTISE_MAX_ORDER + 1) * MOST_FACET_NODES, &work));
   for (PetscInt i = 0; i < m->num_facets; ++i) {
     const BoundarySpec *b = &m->spec->boundaries[m->facets[i].boundary];
-    if (b->traction[0] || b->traction[1] || b->traction[2]) PetscCall(FacetTraction_Private(m, &m->facets[i], work));
+    if (BoundaryHasTraction(b)) PetscCall(FacetTraction_Private(m, &m->facets[i], work));
   }
   PetscCall(BodyForces_Private(m, work));
   PetscCall(PetscFree(work));

@@ -112,7 +112,7 @@ PetscErrorCode NeedsRigidMotion(const NeedsRun *run, PetscInt body, cJSON **moti
   for (PetscInt i = 0; i < m->num_boundaries && *held; ++i) {
     const BoundarySpec *b = &m->boundaries[i];
     if (!Touches_Private(t, body, b->group)) continue;
-    if (b->rotation || b->fix_normal || BoundaryHasPressure(b) || b->traction[0] || b->traction[1] || b->traction[2] || b->amplitude.num) *held = PETSC_FALSE;
+    if (b->rotation || b->fix_normal || BoundaryHasPressure(b) || BoundaryHasTraction(b) || b->amplitude.num) *held = PETSC_FALSE;
     for (PetscInt c = 0; c < dim; ++c) {
       const char *here = b->fix[c] ? "0" : b->displacement[c] ? ExpressionText(b->displacement[c]) : NULL;
       if (!here) continue;

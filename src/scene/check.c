@@ -156,11 +156,6 @@ static PetscErrorCode MatchBodies_Private(Scene s, const CoarseMesh *m)
 
 /* ---- boundaries, pairs, supports ------------------------------------------------------------------------------------------------------ */
 
-static PetscBool HasTraction_Private(const BoundarySpec *b)
-{
-  return (PetscBool)(b->traction[0] || b->traction[1] || b->traction[2]);
-}
-
 static PetscErrorCode MatchBoundaries_Private(Scene s, const Facets *f)
 {
   PetscFunctionBegin;
@@ -175,7 +170,7 @@ static PetscErrorCode MatchBoundaries_Private(Scene s, const Facets *f)
     for (PetscInt body = 0; body < f->mesh->num_bodies; ++body) {
       const PetscBool rigid = s->data.bodies[body].material->law->rigid;
       if (!rigid || !f->body_touches[body * f->mesh->num_boundaries + b->spec.group]) continue;
-      PetscCheckInput(!BoundaryHasPressure(&b->spec) && !HasTraction_Private(&b->spec),
+      PetscCheckInput(!BoundaryHasPressure(&b->spec) && !BoundaryHasTraction(&b->spec),
                       "%s.%s: the boundary is one of the rigid body '%s', which forces move by body.%s.load alone", NodeWhere(b->node),
                       BoundaryHasPressure(&b->spec) ? BoundaryPressureKey(&b->spec) : "traction", f->mesh->body_name[body], f->mesh->body_name[body]);
     }

@@ -67,16 +67,13 @@ static PetscErrorCode End_Private(Solver s)
 }
 
 /* Not for bodies with an energy that nothing touches, glued or not: a load that carries them away, or past a limit point, is told by steps that fail. */
-static void Applies_Private(Solver s, PetscBool *yes)
+static PetscBool Applies_Private(Solver s)
 {
-  const SceneData *scene;
-  PetscBool        energy, touched = PETSC_FALSE;
+  const SceneData *scene = ProblemGetScene(s->problem);
 
-  scene = ProblemGetScene(s->problem);
-  for (PetscInt i = 0; i < scene->num_contacts; ++i) touched = (PetscBool)(touched || scene->contacts[i].law != CONTACT_TIED);
-  energy = ProblemIsSymmetric(s->problem);
-  energy = (PetscBool)(energy && !MechanicsIsPlastic(&scene->mechanics));
-  *yes   = (PetscBool)(touched || !energy);
+  for (PetscInt i = 0; i < scene->num_contacts; ++i)
+    if (scene->contacts[i].law != CONTACT_TIED) return PETSC_TRUE;
+  return (PetscBool)(!ProblemIsSymmetric(s->problem) || MechanicsIsPlastic(&scene->mechanics));
 }
 
 static PetscErrorCode Shorten_Private(Solver s, const Iterate *it, Vec dx, PetscReal *step, PetscBool *acts)
@@ -86,7 +83,7 @@ static PetscErrorCode Shorten_Private(Solver s, const Iterate *it, Vec dx, Petsc
   PetscFunctionBegin;
   PetscCall(VecNorm(it->r, NORM_2, &norm));
   if (norm <= LITTLE * it->norm) PetscFunctionReturn(PETSC_SUCCESS);
-  Applies_Private(s, acts);
+  *acts = Applies_Private(s);
   if (!*acts) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(End_Private(s));
   PetscCall(TooFar_Private(s, it, dx, *step, g, acts));

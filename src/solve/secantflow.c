@@ -9,21 +9,15 @@
    solve that begins elastic because one that began as flow has failed has it from its first iterate on. */
 #include "solveimpl.h"
 
-static void IsPlastic_Private(Solver s, PetscBool *yes)
+static PetscBool IsPlastic_Private(Solver s)
 {
-  const SceneData *scene;
-
-  scene = ProblemGetScene(s->problem);
-  *yes  = MechanicsIsPlastic(&scene->mechanics);
+  return MechanicsIsPlastic(&ProblemGetScene(s->problem)->mechanics);
 }
 
 static PetscErrorCode Linearise_Private(Solver s, const Iterate *it, const Form *last, PetscBool always, PetscBool *acts)
 {
-  PetscBool plastic;
-
   PetscFunctionBegin;
-  IsPlastic_Private(s, &plastic);
-  if (plastic && s->swap && it->number == 1) s->course.flow_start = it->norm;
+  if (IsPlastic_Private(s) && s->swap && it->number == 1) s->course.flow_start = it->norm;
   if (s->course.flow_start == 0) PetscFunctionReturn(PETSC_SUCCESS);
   s->form.secant = PetscSqr(PetscSqr(it->norm / s->course.flow_start));
   *acts          = (PetscBool)(s->step < 1 || s->form.secant > last->secant);
@@ -35,11 +29,8 @@ static PetscErrorCode Linearise_Private(Solver s, const Iterate *it, const Form 
 
 static PetscErrorCode Shorten_Private(Solver s, const Iterate *it, Vec dx, PetscReal *step, PetscBool *acts)
 {
-  PetscBool plastic;
-
   PetscFunctionBegin;
-  IsPlastic_Private(s, &plastic);
-  if (!plastic || s->course.flow_start > 0 || *step == 1) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!IsPlastic_Private(s) || s->course.flow_start > 0 || *step == 1) PetscFunctionReturn(PETSC_SUCCESS);
   s->course.flow_start = it->norm;
   *step                = 0;
   PetscCall(ProblemStepMove(s->problem, dx, 0, PETSC_FALSE, it->x));

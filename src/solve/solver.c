@@ -139,12 +139,13 @@ static PetscErrorCode Condense_Private(Solver s)
 }
 
 /* Are there element pressures that are condensed? */
-static void StoresPressure_Private(Problem p, PetscBool *yes)
+static PetscBool StoresPressure_Private(Problem p)
 {
-  const SceneData *scene = ProblemGetScene(p);
+  const MechanicsSpec *m = &ProblemGetScene(p)->mechanics;
 
-  *yes = PETSC_FALSE;
-  for (PetscInt b = 0; b < scene->mechanics.num_bodies; ++b) *yes = (PetscBool)(*yes || MaterialStoresPressure(scene->mechanics.bodies[b].material));
+  for (PetscInt b = 0; b < m->num_bodies; ++b)
+    if (MaterialStoresPressure(m->bodies[b].material)) return PETSC_TRUE;
+  return PETSC_FALSE;
 }
 
 PetscErrorCode SolverCreate(Problem problem, Solver *solver)
@@ -152,7 +153,7 @@ PetscErrorCode SolverCreate(Problem problem, Solver *solver)
   Solver    s;
   Mat       A;
   Vec       r;
-  PetscBool multigrid, stores;
+  PetscBool multigrid;
 
   PetscFunctionBegin;
   PetscCall(PetscNew(&s));
@@ -176,8 +177,7 @@ PetscErrorCode SolverCreate(Problem problem, Solver *solver)
   PetscCall(SNESSetJacobian(s->snes, A, A, Jacobian_Private, s));
   PetscCall(ProblemCreateRightSide(problem, &s->lift));
   PetscCall(VecDuplicateAll(s->lift, 3, (Vec *[]){&s->rhs, &s->y, &s->hold}));
-  StoresPressure_Private(problem, &stores);
-  if (stores) PetscCall(ProblemCreateVector(problem, &s->balance));
+  if (StoresPressure_Private(problem)) PetscCall(ProblemCreateVector(problem, &s->balance));
   PetscCall(PetscMalloc1(s->passes + 1, &s->pass_sets));
   *solver = s;
   PetscFunctionReturn(PETSC_SUCCESS);

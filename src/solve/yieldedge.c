@@ -6,11 +6,8 @@
 
 static PetscErrorCode Linearise_Private(Solver s, const Iterate *it, const Form *last, PetscBool always, PetscBool *acts)
 {
-  const SceneData *scene;
-
   PetscFunctionBegin;
-  scene = ProblemGetScene(s->problem);
-  if (!MechanicsIsPlastic(&scene->mechanics)) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!MechanicsIsPlastic(&ProblemGetScene(s->problem)->mechanics)) PetscFunctionReturn(PETSC_SUCCESS);
   s->form.edge = it->number == 0 ? (s->swap ? EDGE_RESTS : EDGE_FLOWS) : last->released ? EDGE_RESTS : EDGE_AS_IT_IS;
   *acts        = (PetscBool)(s->form.edge != EDGE_AS_IT_IS);
   PetscFunctionReturn(PETSC_SUCCESS);
