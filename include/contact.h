@@ -154,6 +154,9 @@ void ContactPairSetHull(ContactPair, ContactHull, const PetscInt part[], const P
    collective. */
 void ContactPairSetPrecedence(ContactPair, const PetscInt precedence[], const PetscBool met[]);
 
+/* Does a surface make an edge with its image in a plane of symmetry, by its unit normal, at corner k of facet f, corner = (corners of a facet) f + k? It
+   turns there by twice the angle between its normal and the plane. Reference positions. Not collective. */
+PetscBool ContactImageMakesEdge(const ContactSurface *, PetscInt corner, const PetscReal plane[3]);
 /* Facets whose multiplier functions are made together, those that share a corner that hangs: root[num_facets], the first of them. Not collective. */
 PetscErrorCode ContactFacetGroups(const ContactSurface *, PetscInt root[]);
 /* Facets of higher order: which nodes have multipliers (carries[nonmortar num_nodes], NULL: all), for the functions of covered facets, which are dual in the
@@ -165,8 +168,9 @@ PetscErrorCode ContactPairSetCarriers(ContactPair, const ContactSurface *nonmort
    compliances. Not collective. */
 void ContactPairSetSoftness(ContactPair, const PetscReal softness[]);
 /* Nodes of the nonmortar side that other pairs constrain as well (NULL: none): what ContactPairTie and ContactPairKeepPoints find of their facets has a
-   compliance from then on, the largest one of a facet that is covered in part. Borrowed. Not collective. */
-void ContactPairSetShared(ContactPair, const PetscBool shared[]);
+   compliance from then on, the largest one of a facet that is covered in part. parted: the pair is made once for each of several faces of the mortar side, and so
+   are constraints of nodes on sharp edges of the nonmortar one. Borrowed. Not collective. */
+void ContactPairSetShared(ContactPair, const PetscBool shared[], PetscBool parted);
 /* Lengths along the rays that count as no gap (NULL: 0): gt_j = int psi_j (s - closed / |d|) d.n, closed linear on each facet between its corners. Forces and
    derivatives are those of what is left. closed[nonmortar num_nodes], of corners that do not hang, user's units of length; borrowed, and to be set again when a
    number changes. Not collective. */

@@ -46,6 +46,8 @@ struct _p_ContactPair {
   const PetscReal          *softness;                                                   /* borrowed; NULL: no compliance */
   const PetscReal          *closed;                                                     /* borrowed: of nonmortar corners; NULL: 0 */
   const PetscBool          *shared;                                                     /* borrowed: of nodes; NULL: no node is */
+  PetscBool                 parted;                                                     /* one of several for the faces of the mortar side */
+  PetscBool                 friction;
   RayWork                   ray;                                                        /* work space; NULL before the first search */
   PetscInt                  num_nodes, num_facets, num_mortar_nodes, num_mortar_facets; /* of the last search */
   /* candidates: mortar facets of listed facet i are candidate[start[i] .. start[i+1]), ascending */

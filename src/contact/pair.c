@@ -4,11 +4,13 @@
 PetscErrorCode ContactPairCreate(PetscInt dim, PetscBool axisymmetric, const ContactSpec *spec, ContactPair *pair)
 {
   PetscFunctionBegin;
+  PetscCall(ContactRayLatticePrepare());
   PetscCall(PetscNew(pair));
   (*pair)->dim             = dim;
   (*pair)->axisymmetric    = axisymmetric;
   (*pair)->node_to_segment = spec->node_to_segment;
   (*pair)->self            = spec->self;
+  (*pair)->friction        = (PetscBool)(spec->law == CONTACT_COULOMB);
   (*pair)->standard        = (PetscBool)(spec->standard || spec->node_to_segment);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

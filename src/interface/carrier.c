@@ -80,8 +80,38 @@ PetscErrorCode ContactNodeScales_Private(Interface p, Contact *c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Mean unit normal of the facets at a node, those between the corners, and of their mirror images in planes of symmetry; reference positions. */
-static void NodeNormal_Private(const Surface *s, PetscInt n, PetscReal normal[3])
+/* The corner of a facet in a plane through one of its nodes that is nearest to the node. */
+static PetscInt CornerInPlane_Private(const Surface *s, PetscInt n, PetscInt facet, const PetscReal plane[3])
+{
+  PetscReal least = PETSC_MAX_REAL;
+  PetscInt  at    = 0;
+
+  for (PetscInt k = 0; k < s->corners; ++k) {
+    PetscReal off = 0, distance2 = 0;
+
+    for (PetscInt c = 0; c < s->dim; ++c) {
+      const PetscReal way = s->X[s->dim * s->facets[s->corners * facet + k] + c] - s->X[s->dim * n + c];
+      off += plane[c] * way;
+      distance2 += PetscSqr(way);
+    }
+    if (distance2 < least && PetscSqr(off) <= PetscSqr(ROUND_LENGTH) * distance2) least = distance2, at = k;
+  }
+  return s->corners * facet + at;
+}
+
+/* The facet lies in the plane, or goes on into its image without an edge. */
+static PetscBool HasImage_Private(const Surface *s, PetscInt n, PetscInt facet, const PetscReal plane[3], const PetscReal N[3])
+{
+  const ContactSurface at = SurfaceAt_Private(s, s->X);
+
+  if (Dot3(plane, plane) == 0) return PETSC_FALSE;
+  if (PetscAbsReal(Dot3(plane, N)) > (1 - ROUND_LENGTH) * PetscSqrtReal(Dot3(N, N))) return PETSC_TRUE;
+  return (PetscBool)!ContactImageMakesEdge(&at, CornerInPlane_Private(s, n, facet, plane), plane);
+}
+
+/* Mean unit normal of the facets at a node, those between the corners, and of their mirror images in planes of symmetry, with friction where these make no edge;
+   reference positions. */
+static void NodeNormal_Private(const Surface *s, PetscInt n, PetscBool friction, PetscReal normal[3])
 {
   const PetscInt dim = s->dim;
   PetscReal      N[3], length;
@@ -90,14 +120,13 @@ static void NodeNormal_Private(const Surface *s, PetscInt n, PetscReal normal[3]
   for (PetscInt k = s->node_first[n]; k < s->node_first[n + 1]; ++k) {
     ContactFacetVector(s->dim, s->X, s->facets + s->corners * s->node_facet[k], N);
     length = PetscSqrtReal(Dot3(N, N));
-    for (PetscInt c = 0; c < 3; ++c) normal[c] += N[c] / length;
-  }
-  for (PetscInt k = 0; k < dim - 1; ++k) {
-    const PetscReal *mirror = s->mirror + dim * ((dim - 1) * n + k);
-    PetscReal        across = 0;
+    for (PetscInt i = 0; i < dim - 1; ++i) {
+      const PetscReal *mirror = s->mirror + dim * ((dim - 1) * n + i), plane[3] = {mirror[0], mirror[1], dim == 3 ? mirror[2] : 0};
+      const PetscReal  across = friction && !HasImage_Private(s, n, s->node_facet[k], plane, N) ? 0 : Dot3(N, plane);
 
-    for (PetscInt c = 0; c < dim; ++c) across += normal[c] * mirror[c];
-    for (PetscInt c = 0; c < dim; ++c) normal[c] -= across * mirror[c];
+      for (PetscInt c = 0; c < 3; ++c) N[c] -= across * plane[c];
+    }
+    for (PetscInt c = 0; c < 3; ++c) normal[c] += N[c] / length;
   }
   length = PetscSqrtReal(Dot3(normal, normal));
   for (PetscInt c = 0; c < 3 && length > 0; ++c) normal[c] /= length;
@@ -123,7 +152,7 @@ PetscInt ContactHeldAxes_Private(const Surface *s, PetscInt n, PetscReal axis[3]
 {
   PetscReal normal[3], across[3], *frame = s->frame + 9 * n;
 
-  NodeNormal_Private(s, n, normal);
+  NodeNormal_Private(s, n, PETSC_TRUE, normal);
   if (s->dim == 2) {
     axis[0] = -normal[1], axis[1] = normal[0], axis[2] = 0;
     return IsHeld_Private(s, n, axis);
@@ -142,6 +171,23 @@ PetscInt ContactHeldAxes_Private(const Surface *s, PetscInt n, PetscReal axis[3]
     return IsHeld_Private(s, n, across) ? 2 : 1;
   }
   return 0;
+}
+
+/* Does a support hold the node in a direction neither along the surface nor across it, and leave it others? Then what it may still do moves it both ways. */
+PetscBool ContactHeldObliquely_Private(const Surface *s, PetscInt n)
+{
+  const PetscInt dim = s->dim, fixed = s->dof[dim * n];
+  PetscReal      normal[3];
+
+  if (fixed == 0 || fixed == (1 << dim) - 1) return PETSC_FALSE;
+  NodeNormal_Private(s, n, PETSC_TRUE, normal);
+  for (PetscInt d = 0; d < dim; ++d) {
+    PetscReal across = 0;
+
+    for (PetscInt c = 0; c < dim; ++c) across += s->frame[dim * (dim * n + d) + c] * normal[c];
+    if (fixed >> d & 1 && PetscAbsReal(across) > CONTACT_SLIVER && 1 - PetscSqr(across) > PetscSqr(CONTACT_SLIVER)) return PETSC_TRUE;
+  }
+  return PETSC_FALSE;
 }
 
 /* On the axis int N_j R dR = 0 from order 2 on, but for what the facet is curved: such a node carries nothing (ContactMultiplierCreate). */
@@ -194,7 +240,7 @@ void ContactCarriers_Private(Interface p, Contact *c)
     if (c->spec->self && IsCrease_Private(s, n)) continue;
     const PetscBool rigid = p->spec->bodies[t->leaf_body[s->facet_leaf[facet]]].material->law->rigid;
     PetscReal       normal[3];
-    NodeNormal_Private(s, n, normal);
+    NodeNormal_Private(s, n, c->law->slips, normal);
     c->has_multiplier[n] = (PetscBool)(rigid || !IsHeld_Private(s, n, normal));
   }
 }

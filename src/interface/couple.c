@@ -328,7 +328,8 @@ static void Near_Private(Interface p, Contact *c, PetscReal pending)
 }
 
 /* The pressure at nodes without multiplier, shown there and used by the estimate. Supports hold them, or they lie on the axis: from the nodes that their
-   functions went to, if all of those touch: else the zone of contact ends there, and nothing tells how; 0. Hanging: their masters'. */
+   functions went to, if all of those touch: else the zone of contact ends there, and nothing tells how; 0. So the tractions where the surface is oblique to the
+   axis; else they are 0 there by symmetry. Hanging: their masters'. */
 static PetscErrorCode ShownMultipliers_Private(Interface p, Contact *c)
 {
   const Surface   *s = &c->side[0];
@@ -338,19 +339,20 @@ static PetscErrorCode ShownMultipliers_Private(Interface p, Contact *c)
   PetscFunctionBegin;
   ContactPairGetDonors(c->pair, &first, &donor, &weight);
   for (PetscInt i = 0; i < s->num_own && first; ++i) {
-    const PetscInt n = s->own[i];
-    PetscReal      z = 0;
+    const PetscInt n = s->own[i], num = c->shared && c->shared[n] ? c->num : 1;
+    PetscReal      z[3] = {0, 0, 0};
     if (c->has_multiplier[n]) continue;
-    c->z[n] = 0;
+    for (PetscInt d = 0; d < num; ++d) c->z[s->num_nodes * d + n] = 0;
     if (!ContactSees_Private(c, n)) continue;
     PetscBool touch = PETSC_TRUE;
     for (PetscInt k = first[n]; k < first[n + 1]; ++k) {
-      z += weight[k] * c->z[donor[k]];
+      for (PetscInt d = 0; d < num; ++d) z[d] += weight[k] * c->z[s->num_nodes * d + donor[k]];
       if (!c->active[donor[k]]) touch = PETSC_FALSE;
     }
-    if (touch) c->z[n] = PetscMax(z, 0);
+    z[0] = PetscMax(z[0], 0);
+    for (PetscInt d = 0; d < num && touch; ++d) c->z[s->num_nodes * d + n] = z[d];
   }
-  if (first && first[s->num_nodes] > 0) PetscCall(LinkSpread_Private(p, &s->values, 1, c->z));
+  for (PetscInt d = 0; d < c->num && first && first[s->num_nodes] > 0; ++d) PetscCall(LinkSpread_Private(p, &s->values, 1, c->z + s->num_nodes * d));
   for (PetscInt k = 0; k < c->num; ++k) SurfaceFollow_Private(s, 1, c->z + s->num_nodes * k);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

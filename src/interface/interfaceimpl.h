@@ -450,6 +450,7 @@ void           ContactCarriers_Private(Interface, Contact *);
 PetscBool ContactIsFree_Private(const Interface, const Contact *, PetscInt node, PetscInt axis);
 /* The number of directions along the surface in which supports hold the node; of one, axis. Until the rows of the matrix are known. */
 PetscInt  ContactHeldAxes_Private(const Surface *, PetscInt node, PetscReal axis[3]);
+PetscBool ContactHeldObliquely_Private(const Surface *, PetscInt node);
 PetscReal SurfaceFacetMeasure_Private(const Surface *, PetscInt facet, PetscBool axisymmetric);
 /* slip.c: nothing where the law has no friction. Create: after the multipliers. Keep: before a search; points where slip counts from, if they are not kept yet.
    Freeze: small kinematics, after the search at the reference positions and before the facets are evaluated: points are kept there, once for all.

@@ -2,7 +2,8 @@
 
    Where two blocks that are glued to each other, or held by friction, meet a wall, the gap of both corners to the wall and the motion of one corner along the
    other are three constraints of two motions. They do not contradict each other, but tractions are not unique: what is found is any of them, and nodes that
-   press are told to be open. So there tractions have a compliance that does not see those which are constant on a facet (include/contact.h). */
+   press are told to be open. So there tractions have a compliance that does not see those which are constant on a facet (include/contact.h). So they have at the
+   corner of a block that sticks to both walls of a groove, which are faces of one pair. */
 #include "interfaceimpl.h"
 
 /* A number that tells the nodes of a mesh apart. */
@@ -43,14 +44,19 @@ PetscErrorCode ContactCrossings_Private(Interface p, const Contact *c, PetscBool
 
 PetscErrorCode ContactShared_Private(Interface p, Contact *c)
 {
-  PetscBool any = PETSC_FALSE;
+  PetscBool any = PETSC_FALSE, parted = PETSC_FALSE;
 
   PetscFunctionBegin;
   if (!c->law->ties && !c->law->slips) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscMalloc1(c->side[0].num_nodes, &c->shared));
   PetscCall(ContactCrossings_Private(p, c, PETSC_FALSE, c->shared));
-  for (PetscInt n = 0; n < c->side[0].num_nodes; ++n) any = (PetscBool)(any || c->shared[n]);
+  for (PetscInt n = 0; n < c->side[0].num_nodes; ++n) {
+    if (c->law->slips && ContactHeldObliquely_Private(&c->side[0], n)) c->shared[n] = PETSC_TRUE;
+    any = (PetscBool)(any || c->shared[n]);
+  }
   if (!any) PetscCall(PetscFree(c->shared)); /* no facet has to look */
-  ContactPairSetShared(c->pair, c->shared);
+  for (PetscInt i = 0; i < p->num_contacts; ++i)
+    if (&p->contacts[i] != c && p->contacts[i].spec->pair == c->spec->pair) parted = PETSC_TRUE;
+  ContactPairSetShared(c->pair, c->shared, parted);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

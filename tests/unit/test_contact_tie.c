@@ -93,7 +93,7 @@ static void test_shared(void **state)
       CHECK_CALL(ContactPairTie(pair, &a.s, &b.s, &num, &facets, &failed));
       for (PetscInt f = 0; f < num; f++) assert_null(facets[f].compliance);
       shared[facets[0].nodes[0]] = PETSC_TRUE;
-      ContactPairSetShared(pair, shared);
+      ContactPairSetShared(pair, shared, PETSC_FALSE);
       CHECK_CALL(ContactPairTie(pair, &a.s, &b.s, &num, &facets, &failed));
       for (PetscInt f = 0; f < num; f++) {
         PetscReal sum = 0;

@@ -10,6 +10,7 @@ from combinations import half
 from contactkit import blocks, contact, spread, steps
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+SCENES = pathlib.Path(__file__).resolve().parent / "scenes"
 STEEL = {"law": "neo_hookean", "volumetric": "quadratic", "E": 1, "nu": 0.3}
 RIGID = {"law": "rigid"}
 SHEAR, HEIGHT = 0.12, 0.85  # of the deformation F = [1 SHEAR; 0 HEIGHT]
@@ -590,6 +591,85 @@ def test_in_a_corner(run, order):
     print(forces, [result.summary["newton_iterations"] for result in results])
     assert all(result.returncode == 0 and result.summary["step_cuts"] == 0 for result in results)
     assert forces[0] == pytest.approx(forces[1], rel=5e-4)
+
+
+@pytest.mark.parametrize("order", ["1", "2"])
+def test_in_the_corner_of_a_tray(run, order):
+    """Floor and wall may be one boundary: the pair is made for each of its faces, and the state is that of two pairs."""
+    scene = (ROOT / "tests/gauntlet/corner_stick.yml").read_text().replace("corner_stick.geo", str(SCENES / "tray.geo"))
+    scene = scene.replace("floor: {material: iron}, wall:", "tray:").replace("f: {nonmortar: under, mortar: ground, friction: 0.8}, w: {nonmortar: left, mortar: face,",
+                                                                             "f: {nonmortar: skin, mortar: walls,")
+    pairs = run("tests/gauntlet/corner_stick.yml", "-order", order)
+    results = [run("tray.yml", "-order", order, "-load_step", step, text=scene) for step in ("0.25", "1")]
+    print([(r.summary["newton_iterations"], r.summary["energy"], r.summary["estimated_error"]) for r in [pairs, *results]])
+    for result in results:
+        assert result.returncode == 0 and result.summary["step_cuts"] == 0, result
+        assert result.summary["energy"] == pytest.approx(pairs.summary["energy"], rel=1e-6)
+        assert result.summary["estimated_error"] == pytest.approx(pairs.summary["estimated_error"], rel=0.05)
+
+
+VALLEY = """
+mesh: {file: %s, order: 1}
+model: plane_strain
+body: {low: {material: m}, up: {material: m}}
+material: {m: {law: neo_hookean, volumetric: log, E: 10, nu: 0.3}}
+boundary: {bottom: {fix: xy}, top: {displacement: {y: "-0.1*t"}}}
+contact: {j: {nonmortar: under, mortar: over, %s}}
+load: {step: 1}
+"""
+
+
+@pytest.mark.parametrize("order", ["1", "2", "3"])
+def test_wedge_that_sticks_in_a_valley(run, order):
+    """Its tip is held by both flanks: four constraints of two motions. Tractions there are those of the facets beside it, and the energy is that of glued blocks."""
+    sticks, glued = (run("valley.yml", "-order", order, text=VALLEY % (SCENES / "valley.geo", word)) for word in ("friction: 3", "kind: tied"))
+    pressure = sticks.summary["contact"]["j"]["max_pressure"]
+    print(pressure, sticks.summary["estimated_error"], sticks.summary["energy"], glued.summary["energy"], sticks.summary["newton_iterations"])
+    assert sticks.returncode == 0 and sticks.summary["newton_iterations"] <= 6, sticks
+    assert sticks.summary["energy"] == pytest.approx(glued.summary["energy"], rel=1e-3)
+    assert pressure < 0.9 and sticks.summary["estimated_error"] < 0.15
+
+
+OBLIQUE = """
+mesh: {file: %s, order: 1%s}
+model: %s
+body: {low: {material: m}, up: {material: m}}
+material: {m: {law: neo_hookean, volumetric: log, E: 10, nu: 0.3}}
+boundary: {bottom: {fix: y}, left: {fix: x}, top: {displacement: {y: "-0.1*t"}}%s}
+contact: {j: {nonmortar: %s, mortar: %s, friction: 3}}
+load: {step: 0.5}
+"""
+
+
+def squashed(plane):
+    """Energy density and normal stress on the joint of a bar pressed to 1.1 of 1.2, free across (plane: in the plane): mu/2 (tr C - 3) - mu ln J + lambda/2 ln^2 J."""
+    mu, lam, y = 10 / 2.6, 10 * 0.3 / 1.3 / 0.4, 1.1 / 1.2
+
+    def state(x):
+        z = 1 if plane else x
+        J = x * y * z
+        return [(mu * (a * a - 1) + lam * math.log(J)) / J for a in (x, y)], mu / 2 * (x * x + y * y + z * z - 3) - mu * math.log(J) + lam / 2 * math.log(J) ** 2
+
+    low, high = 1, 1.1
+    while high - low > 1e-15:
+        x = (low + high) / 2
+        low, high = (x, high) if state(x)[0][0] < 0 else (low, x)
+    return state(low)[1], -state(low)[0][1] / (1 + (y / low) ** 2 / 3)
+
+
+@pytest.mark.parametrize("sides", [("under", "over"), ("over", "under")], ids="-".join)
+@pytest.mark.parametrize("model, order", [("plane_strain", 1), ("plane_strain", 2), ("plane_strain", 3), ("axisymmetric", 1), ("axisymmetric", 2), ("3d", 1), ("3d", 2)])
+def test_patch_to_an_oblique_support(run, model, order, sides):
+    """A joint at 30 degrees that sticks and ends at a support, a plane of symmetry or the axis: its last node can move in one direction only, which changes gap and
+    slip alike, and nothing tells pressure and friction apart but that tractions of the facet are those beside it."""
+    space = model == "3d"
+    scene = OBLIQUE % (SCENES / "oblique.geo", ", parameter: {depth: 0.5}" if space else "", model, ", back: {fix: z}" if space else "", *sides)
+    result = run("oblique.yml", "-order", order, text=scene)
+    energy, pressure = squashed(model == "plane_strain")
+    print(result.summary["energy"], result.summary["contact"]["j"]["max_pressure"], energy, pressure, result.summary["estimated_error"])
+    assert result.returncode == 0 and result.summary["estimated_error"] < 1e-6, result
+    assert result.summary["energy"] == pytest.approx(energy * 1.2 * {"plane_strain": 1, "axisymmetric": math.pi, "3d": 0.5}[model], rel=1e-10)
+    assert result.summary["contact"]["j"]["max_pressure"] == pytest.approx(pressure, rel=1e-9)
 
 
 def wheel(run, *words, **keys):

@@ -125,17 +125,24 @@ static void SideNormal_Private(const ContactSurface *s, PetscInt facet, PetscInt
   NormalAt_Private(s, facet, at, n);
 }
 
-FacetJoint ContactFacetJoint(const ContactSurface *s, PetscInt a, PetscInt b)
+/* Where corner k of a facet lies on it. */
+static const PetscReal *Place_Private(const ContactSurface *s, PetscInt k)
 {
   static const PetscReal Corner[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}, End[2][2] = {{-1, 0}, {1, 0}};
-  const PetscInt         nv = 2 * (s->dim - 1);
-  PetscReal              n[2][3];
+
+  return s->dim == 2 ? End[k] : Corner[k];
+}
+
+FacetJoint ContactFacetJoint(const ContactSurface *s, PetscInt a, PetscInt b)
+{
+  const PetscInt nv = 2 * (s->dim - 1);
+  PetscReal      n[2][3];
 
   for (PetscInt k = 0; k < nv; k++)
     for (PetscInt l = 0; l < nv; l++) {
       if (s->facets[nv * a + k] != s->facets[nv * b + l]) continue;
-      NormalAt_Private(s, a, s->dim == 2 ? End[k] : Corner[k], n[0]);
-      NormalAt_Private(s, b, s->dim == 2 ? End[l] : Corner[l], n[1]);
+      NormalAt_Private(s, a, Place_Private(s, k), n[0]);
+      NormalAt_Private(s, b, Place_Private(s, l), n[1]);
       return Dot3(n[0], n[1]) > CONTACT_OPPOSE ? JOINT_SMOOTH : JOINT_SHARP;
     }
   return JOINT_NONE;
@@ -240,18 +247,29 @@ static PetscErrorCode Sheets_Private(RayWork w, const ContactSurface *s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Does a facet lie along plane of symmetry k through one of its corners, rather than meet it? */
-static PetscBool LiesAlong_Private(const ContactSurface *s, PetscInt corner, int k)
+PetscBool ContactImageMakesEdge(const ContactSurface *s, PetscInt corner, const PetscReal plane[3])
 {
-  const PetscInt   nv = 2 * (s->dim - 1), node = s->facets[corner];
-  const PetscReal *mirror = s->mirror + (s->dim == 2 ? 2 * node : 6 * node + 3 * k);
-  PetscReal        N[3], n[3] = {mirror[0], mirror[1], s->dim == 3 ? mirror[2] : 0};
+  const PetscInt nv = 2 * (s->dim - 1);
+  PetscReal      n[3];
 
-  ContactFacetVector(s->dim, s->x, s->facets + nv * (corner / nv), N);
-  return (PetscBool)(PetscAbsReal(Dot3(n, N)) > STEEP * PetscSqrtReal(Dot3(N, N)));
+  NormalAt_Private(s, corner / nv, Place_Private(s, corner % nv), n);
+  return (PetscBool)(1 - 2 * PetscSqr(Dot3(plane, n)) < CONTACT_SHARP);
 }
 
-PetscErrorCode ContactDirectionTopology(RayWork w, const ContactSurface *s)
+/* Has a facet no image in plane of symmetry k through one of its corners? It lies along the plane rather than meets it; or with friction makes an edge with the
+   image: tractions along both are not those along the mean. */
+static PetscBool HasNoImage_Private(const ContactSurface *s, PetscInt corner, int k, PetscBool friction)
+{
+  const PetscInt   nv = 2 * (s->dim - 1), node = s->facets[corner];
+  const PetscReal *mirror = s->mirror + (s->dim == 2 ? 2 * node : 6 * node + 3 * k), n[3] = {mirror[0], mirror[1], s->dim == 3 ? mirror[2] : 0};
+  PetscReal        N[3];
+
+  if (Dot3(n, n) == 0) return PETSC_FALSE;
+  ContactFacetVector(s->dim, s->x, s->facets + nv * (corner / nv), N);
+  return (PetscBool)(PetscAbsReal(Dot3(n, N)) > STEEP * PetscSqrtReal(Dot3(N, N)) || (friction && ContactImageMakesEdge(s, corner, n)));
+}
+
+PetscErrorCode ContactDirectionTopology(RayWork w, const ContactSurface *s, PetscBool friction)
 {
   const PetscInt nv = s->dim == 2 ? 2 : 4, num = nv * s->num_facets;
 
@@ -269,7 +287,7 @@ PetscErrorCode ContactDirectionTopology(RayWork w, const ContactSurface *s)
   for (PetscInt i = 2; i < s->num_nodes + 2; i++) w->ring_first[i] += w->ring_first[i - 1];
   for (PetscInt i = 0; i < num; i++) w->ring[w->ring_first[s->facets[i] + 1]++] = i;
   for (PetscInt k = 0; k < num && s->dim == 3 && s->mirror; k++) w->kept[k] = IsKept_Private(s, s->facets[k], s->facets[4 * (k / 4) + (k + 1) % 4]);
-  for (PetscInt k = 0; k < 2 * num && s->mirror; k++) w->along[k] = LiesAlong_Private(s, k / 2, (int)(k % 2));
+  for (PetscInt k = 0; k < 2 * num && s->mirror; k++) w->along[k] = HasNoImage_Private(s, k / 2, (int)(k % 2), friction);
   PetscCall(ContactParents(s, w->parent, NULL));
   PetscCall(Sheets_Private(w, s));
   PetscFunctionReturn(PETSC_SUCCESS);

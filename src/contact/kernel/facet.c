@@ -6,13 +6,12 @@ PetscErrorCode ContactRayTopology(ContactPair pair, const ContactSurface *s)
 {
   PetscFunctionBegin;
   if (!pair->ray) PetscCall(PetscNew(&pair->ray));
-  PetscCall(ContactRayLatticePrepare());
   PetscCheck(s->X, PETSC_COMM_SELF, PETSC_ERR_ARG_NULL, "contact along a continuous direction needs the reference positions of the nonmortar surface");
   PetscCall(PetscFree(pair->normal));
   pair->num_nodes  = s->num_nodes;
   pair->num_facets = s->num_facets;
   PetscCall(PetscCalloc1(s->dim * s->num_nodes, &pair->normal));
-  PetscCall(ContactDirectionTopology(pair->ray, s));
+  PetscCall(ContactDirectionTopology(pair->ray, s, pair->friction));
   ContactDirections(pair->ray, s);
   if (!pair->multiplier) PetscCall(ContactMultiplierCreate(s, pair->axisymmetric, pair->standard, NULL, &pair->multiplier));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -218,28 +217,45 @@ void ContactPairSetClosed(ContactPair pair, const PetscReal closed[])
   pair->state.stands = PETSC_FALSE;
 }
 
-void ContactPairSetShared(ContactPair pair, const PetscBool shared[])
+void ContactPairSetShared(ContactPair pair, const PetscBool shared[], PetscBool parted)
 {
   pair->shared = shared;
+  pair->parted = parted;
 }
 
-/* Has the facet whose rows are at hand nodes that other pairs constrain, too, and does its compliance for that matter to the evaluation? */
-static PetscBool IsShared_Private(ContactPair pair)
+/* Has the surface several directions at one of the facet's corners? */
+static PetscBool HasSharpCorner_Private(RayWork w, const ContactSurface *s, PetscInt facet)
 {
-  RayWork w = pair->ray;
+  const PetscInt nv = 2 * (s->dim - 1);
 
-  for (PetscInt r = 0; r < w->result.num_rows && pair->shared && (pair->ties || pair->keeps); r++)
-    if (pair->shared[w->result.node[r]]) return PETSC_TRUE;
+  for (PetscInt k = 0; k < nv; k++) {
+    const PetscInt node = s->facets[nv * facet + k];
+
+    for (PetscInt i = w->ring_first[node]; i < w->ring_first[node + 1]; i++)
+      if (w->sheet[w->ring[i]] != w->sheet[nv * facet + k]) return PETSC_TRUE;
+  }
   return PETSC_FALSE;
 }
 
+/* Has the facet whose rows are at hand nodes that other pairs, or other parts of this one, constrain, too, and does its compliance for that matter to the
+   evaluation? */
+static PetscBool IsShared_Private(ContactPair pair, const ContactSurface *s, PetscInt facet)
+{
+  RayWork w = pair->ray;
+
+  if (!pair->ties && !pair->keeps) return PETSC_FALSE;
+  for (PetscInt r = 0; r < w->result.num_rows && pair->shared; r++)
+    if (pair->shared[w->result.node[r]]) return PETSC_TRUE;
+  return (PetscBool)(pair->parted && HasSharpCorner_Private(w, s, facet));
+}
+
 /* Compliance of a facet that is covered in part, or tied and shared with other pairs. */
-static PetscErrorCode Compliance_Private(ContactPair pair, PetscInt facet, ContactFacet *out)
+static PetscErrorCode Compliance_Private(ContactPair pair, const ContactSurface *s, PetscInt facet, ContactFacet *out)
 {
   RayWork                  w          = pair->ray;
   const ContactMultiplier *multiplier = pair->multiplier;
   const PetscInt           first = multiplier->row_first[facet], nr = w->result.num_rows;
-  const PetscBool          shared = IsShared_Private(pair);
+  const PetscBool          shared = IsShared_Private(pair, s, facet);
   PetscReal                sum = 0, softness = 0, *m;
 
   PetscFunctionBegin;
@@ -396,7 +412,7 @@ static PetscErrorCode Facet_Private(const EvaluateContext *ctx, PetscInt slot, C
   PetscCall(Functions_Private(w, pair->multiplier, facet, w->q[2 * w->facet.s.num]));
   if (!ctx->again) PetscCall(Segments_Private(ctx, facet));
   PetscCall(Values_Private(w, out));
-  PetscCall(Compliance_Private(pair, facet, out));
+  PetscCall(Compliance_Private(pair, ctx->nonmortar, facet, out));
   out->dgap = out->dweight = out->dshare = out->push = out->hessian = NULL;
   if (derivatives) PetscCall(Derivatives_Private(ctx, facet, out));
   if (derivatives && ctx->hessian && loaded && !pair->held) PetscCall(Curve_Private(ctx, facet, out));

@@ -201,7 +201,7 @@ typedef enum { JOINT_NONE, JOINT_SMOOTH, JOINT_SHARP } FacetJoint;
 FacetJoint ContactFacetJoint(const ContactSurface *, PetscInt a, PetscInt b);
 /* parent[num_nodes][2]: ends of the edge in whose middle a corner hangs, -1. middle[num_facets][4] (or NULL): the corner that hangs on a side, -1. */
 PetscErrorCode ContactParents(const ContactSurface *, PetscInt parent[], PetscInt middle[]);
-PetscErrorCode ContactDirectionTopology(RayWork, const ContactSurface *);
+PetscErrorCode ContactDirectionTopology(RayWork, const ContactSurface *, PetscBool friction);
 void           ContactDirections(RayWork, const ContactSurface *);
 PetscBool      ContactDirectionUsable(RayWork, const ContactSurface *, PetscInt corner);
 typedef struct {
