@@ -169,9 +169,10 @@ PetscErrorCode InterfaceUntoldOverlap(Interface, PetscInt pair, PetscBool refere
 /* Is a pair tied? Not collective. */
 PetscBool InterfaceTies(Interface);
 
-/* Friction. Does a pair slip? Local displacements u of the state that slip counts from, the last accepted one: from the next search on. Not collective. */
+/* Friction. Does a pair slip? Local displacements u of the state that slip counts from, the last accepted one, and this rank's multipliers there, as in its
+   part of a vector, z[num_z of the problem]: from the next search on. Not collective. */
 PetscBool      InterfaceSlips(Interface);
-PetscErrorCode InterfaceSetSlipOrigin(Interface, const PetscReal u[]);
+PetscErrorCode InterfaceSetSlipOrigin(Interface, const PetscReal u[], const PetscReal z[]);
 /* What friction of a pair did from that state to that of the last evaluation; all 0 without friction. Collective. */
 typedef struct {
   PetscReal dissipation; /* - sum_j q_j w_j (mean slip of node j) */

@@ -71,6 +71,7 @@ PetscErrorCode InterfaceNumber(Interface p, PetscInt counts[])
   const ForestTables *t = p->tables;
 
   PetscFunctionBegin;
+  p->first_z = counts[p->rank];
   for (PetscInt i = 0; i < p->num_contacts; ++i) {
     Contact *c = &p->contacts[i];
     for (PetscInt n = 0; n < c->side[0].num_nodes; ++n) {
@@ -162,7 +163,7 @@ PetscErrorCode InterfaceSearch(Interface p, Vec x, const PetscReal u[], PetscBoo
     Contact       *c = &p->contacts[i];
     PetscLogDouble begin;
     PetscCall(PetscTime(&begin));
-    PetscCall(SlipKeep_Private(p, c, x));
+    PetscCall(SlipKeep_Private(p, c));
     if (p->spec->kinematics == KINEMATICS_SMALL || c->tie) continue;
     for (PetscInt k = 0; k < 2; ++k) {
       SurfaceForget_Private(&c->side[k]);

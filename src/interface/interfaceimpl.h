@@ -218,6 +218,7 @@ struct _p_Interface {
   ContactHull          hull;                 /* hull.c; NULL without contact */
   PetscInt            *part;                 /* [num_cells of the coarse mesh] */
   PetscInt             num_inner;            /* unknowns of this rank that the matrix lacks, the first of its vector */
+  PetscInt             first_z;              /* place of the first multiplier in this rank's part of a vector */
   MPI_Datatype         unit[MOST_REALS + 1]; /* as many reals */
   ContactTraffic       traffic;
   PetscInt             num_links;
@@ -458,7 +459,7 @@ PetscReal SurfaceFacetMeasure_Private(const Surface *, PetscInt facet, PetscBool
  */
 PetscErrorCode SlipCreate_Private(Interface, Contact *);
 PetscErrorCode SlipDestroy_Private(Contact *);
-PetscErrorCode SlipKeep_Private(Interface, Contact *, Vec x);
+PetscErrorCode SlipKeep_Private(Interface, Contact *);
 void           SlipCoupling_Private(const Contact *, const PetscReal q[], PetscReal coupled[]);
 PetscErrorCode SlipFreeze_Private(Interface, Contact *, PetscBool *failed);
 PetscErrorCode SlipEvaluate_Private(Interface, Contact *);

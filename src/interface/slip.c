@@ -89,7 +89,19 @@ PetscErrorCode SlipDestroy_Private(Contact *c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode InterfaceSetSlipOrigin(Interface p, const PetscReal u[])
+/* Tractions of this rank's nodes that count from now on. */
+static void KeepTractions_Private(Interface p, Contact *c, const PetscReal z[])
+{
+  const Surface *s = &c->side[0];
+
+  for (PetscInt i = 0; i < (p->dim - 1) * s->num_own; ++i) {
+    const PetscInt j = s->own[i % s->num_own], d = i / s->num_own;
+
+    c->slip->q[s->num_nodes * d + j] = c->zlocal[j] >= 0 ? z[c->zlocal[j] - p->first_z + 1 + d] : 0;
+  }
+}
+
+PetscErrorCode InterfaceSetSlipOrigin(Interface p, const PetscReal u[], const PetscReal z[])
 {
   PetscFunctionBegin;
   for (PetscInt i = 0; i < p->num_contacts; ++i) {
@@ -98,6 +110,7 @@ PetscErrorCode InterfaceSetSlipOrigin(Interface p, const PetscReal u[])
     if (!s) continue;
     if (memcmp(s->from, u, (size_t)s->size * sizeof(PetscReal))) s->stale = PETSC_TRUE;
     PetscCall(PetscArraycpy(s->from, u, s->size));
+    KeepTractions_Private(p, &p->contacts[i], z);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -128,18 +141,7 @@ void SlipCoupling_Private(const Contact *c, const PetscReal q[], PetscReal coupl
   }
 }
 
-/* Tractions at x count from now on. */
-static PetscErrorCode KeepTractions_Private(Interface p, Contact *c, Vec x)
-{
-  const PetscInt n = c->side[0].num_nodes;
-
-  PetscFunctionBegin;
-  PetscCall(ContactGatherMultipliers_Private(p, c, x));
-  PetscCall(PetscArraycpy(c->slip->q, c->z + n, (p->dim - 1) * n));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SlipKeep_Private(Interface p, Contact *c, Vec x)
+PetscErrorCode SlipKeep_Private(Interface p, Contact *c)
 {
   SlipHistory *s = c->slip;
   PetscBool    failed;
@@ -149,7 +151,6 @@ PetscErrorCode SlipKeep_Private(Interface p, Contact *c, Vec x)
   if (!c->law->slips) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &stale, 1, MPI_INT, MPI_MAX, p->comm));
   if (!stale) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(KeepTractions_Private(p, c, x));
   s->stale = PETSC_FALSE;
   if (p->spec->kinematics == KINEMATICS_SMALL) PetscFunctionReturn(PETSC_SUCCESS); /* points are kept once (SlipFreeze_Private) */
   for (PetscInt k = 0; k < 2; ++k) {
@@ -230,6 +231,7 @@ PetscErrorCode SlipEvaluate_Private(Interface p, Contact *c)
       s->weight[e->nodes[k]] += e->weight[k];
     }
   }
+  for (PetscInt d = 0; d < m; ++d) PetscCall(LinkSpread_Private(p, &own->values, 1, s->q + n * d)); /* who uses them changes with the search */
   SlipCoupling_Private(c, c->z + n, s->coupled);
   for (PetscInt i = 0; i < m * n; ++i) s->slip[i] += s->coupled[i];
   for (PetscInt d = 0; d < m; ++d) PetscCall(LinkSpread_Private(p, &own->values, 1, s->slip + n * d));

@@ -186,7 +186,7 @@ PetscErrorCode ProblemSetState(Problem p, const State *s)
   PetscFunctionBegin;
   PetscCall(MechanicsSetHistory(p->mechanics, s->history));
   PetscCall(MechanicsStorePressure(p->mechanics, s->pressure));
-  if (s->num_before) PetscCall(InterfaceSetSlipOrigin(p->interface, s->before));
+  if (s->num_before) PetscCall(InterfaceSetSlipOrigin(p->interface, s->before, s->before + p->num_local));
   PetscCall(ProblemSetForm(p, &s->form));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -13,7 +13,7 @@ PetscErrorCode StateCreate(Problem p, State *s)
   PetscCall(PetscMalloc1(s->num_history, &s->history));
   PetscCall(MechanicsInitialHistory(p->mechanics, s->history));
   if (InterfaceSlips(p->interface)) {
-    s->num_before = p->num_local;
+    s->num_before = p->num_local + p->num_z;
     PetscCall(PetscCalloc1(s->num_before, &s->before));
   }
   s->form       = FormPlain(PETSC_FALSE);
@@ -38,14 +38,14 @@ PetscErrorCode StateCopy(const State *from, State *to)
 
 PetscErrorCode StateKeepOrigin(Problem p, State *s)
 {
-  PetscReal *local;
+  const PetscReal *x;
 
   PetscFunctionBegin;
   if (!s->num_before) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(VecGetArray(p->u_local, &local));
-  PetscCall(ProblemLocalDisplacement(p, s->x, local));
-  PetscCall(PetscArraycpy(s->before, local, s->num_before));
-  PetscCall(VecRestoreArray(p->u_local, &local));
+  PetscCall(ProblemLocalDisplacement(p, s->x, s->before));
+  PetscCall(VecGetArrayRead(s->x, &x));
+  PetscCall(PetscArraycpy(s->before + p->num_local, x + p->num_u, p->num_z));
+  PetscCall(VecRestoreArrayRead(s->x, &x));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

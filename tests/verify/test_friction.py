@@ -266,6 +266,20 @@ def test_adapted(run):
         assert column(result, name)[-1] == pytest.approx(column(fine, name)[-1], rel=0.01), name
 
 
+@pytest.mark.parametrize("order", ["1", "2"])
+def test_adapted_in_a_corner(run, order):
+    """All cells are split after the step's first solution: the state is the one on cells that were as small from the start. What slips and tractions count from is
+    the state where the step began, at nodes that several pairs constrain, too; it was the one found on the coarse mesh, and 1e-3 of a force was missing."""
+    words = ["tests/gauntlet/corner_stick.yml", "-order", order, "-load_step", 1, "-solve_rtol", 1e-13, "-output_fields", "false"]
+    fine = run(*words, "-mesh_refine", 1)
+    for ranks in (1, 3):
+        result = run(*words, "-adapt_tolerance", 1e-9, "-adapt_fraction", 1, "-adapt_max_passes", 1, ranks=ranks)
+        assert fine.returncode == 0 and result.solved and result.summary["step_cuts"] == 0, result
+        assert result.adapt[-1]["dofs"] == fine.adapt[-1]["dofs"]
+        for pair in "fw":
+            assert result.summary["contact"][pair]["force"] == pytest.approx(fine.summary["contact"][pair]["force"], rel=1e-9), (pair, ranks)
+
+
 def test_restart(run):
     """Stopped after the press and gone on from there: the same, bit by bit."""
     text = disc("disc", 2, 0.3)
