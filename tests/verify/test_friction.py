@@ -13,6 +13,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 SCENES = pathlib.Path(__file__).resolve().parent / "scenes"
 STEEL = {"law": "neo_hookean", "volumetric": "quadratic", "E": 1, "nu": 0.3}
 RIGID = {"law": "rigid"}
+GAUNTLET = ROOT / "tests" / "gauntlet"
 SHEAR, HEIGHT = 0.12, 0.85  # of the deformation F = [1 SHEAR; 0 HEIGHT]
 
 
@@ -595,6 +596,18 @@ def test_rough_blocks_at_walls(run, order):
     pressures = [result.summary["contact"][name]["max_pressure"] for name in "ab"]
     print(pressures, result.summary["estimated_error"], result.summary["active_set_cycles"])
     assert pressures == pytest.approx([0.22138176452, 0.20242786812], rel=1e-6) and result.summary["estimated_error"] < 1e-6
+
+
+@pytest.mark.parametrize("order", [1, 2])
+def test_rough_blocks_at_walls_small(run, order):
+    """The same with small strains: both blocks press on the walls with nu / (1 - nu) times what presses them. Of order 1 the tractions at the corners were any."""
+    text = (GAUNTLET / "bricks.yml").read_text().replace("tied_wall.geo", str(GAUNTLET / "tied_wall.geo")).replace("neo_hookean, volumetric: log", "linear")
+    for step in (0.25, 1):
+        result = run("small.yml", "-order", order, "-load_step", step, text=text + "kinematics: small\n")
+        assert result.returncode == 0, result
+        pressures = [result.summary["contact"][name]["max_pressure"] for name in ("joint", "a", "b")]
+        print(pressures, result.summary["newton_iterations"])
+        assert pressures[1:] == pytest.approx(2 * [3 / 7 * pressures[0]], rel=1e-9) and result.summary["step_cuts"] == 0
 
 
 @pytest.mark.parametrize("order", ["1", "2"])
