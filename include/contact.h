@@ -167,8 +167,8 @@ PetscErrorCode ContactPairSetCarriers(ContactPair, const ContactSurface *nonmort
    positions belongs to the forces. softness[nonmortar num_nodes]: facet size / Young's modulus, averaged on a facet; borrowed. Without it there are no
    compliances. Not collective. */
 void ContactPairSetSoftness(ContactPair, const PetscReal softness[]);
-/* Nodes of the nonmortar side that other pairs constrain as well (NULL: none): what ContactPairTie and ContactPairKeepPoints find of their facets has a
-   compliance from then on, the largest one of a facet that is covered in part. parted: the pair is made once for each of several faces of the mortar side, and so
+/* Nodes of the nonmortar side that other pairs constrain as well (NULL: none): their facets have a compliance from then on, the largest one of a facet that is
+   covered in part. parted: the pair is made once for each of several faces of the mortar side, and so
    are constraints of nodes on sharp edges of the nonmortar one. Borrowed. Not collective. */
 void ContactPairSetShared(ContactPair, const PetscBool shared[], PetscBool parted);
 /* Lengths along the rays that count as no gap (NULL: 0): gt_j = int psi_j (s - closed / |d|) d.n, closed linear on each facet between its corners. Forces and

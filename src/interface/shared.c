@@ -1,9 +1,10 @@
-/* Nodes of a pair's nonmortar side that other pairs constrain, too.
+/* Nodes of a pair's nonmortar side that other pairs, other parts of the pair, or supports constrain, too.
 
    Where two blocks that are glued to each other, or held by friction, meet a wall, the gap of both corners to the wall and the motion of one corner along the
    other are three constraints of two motions. They do not contradict each other, but tractions are not unique: what is found is any of them, and nodes that
    press are told to be open. So there tractions have a compliance that does not see those which are constant on a facet (include/contact.h). So they have at the
-   corner of a block that sticks to both walls of a groove, which are faces of one pair. */
+   corner of a block that sticks to both walls of a groove, which are faces of one pair, and where a support leaves a node one direction, oblique to the surface,
+   in which its gap and its slip are the same. */
 #include "interfaceimpl.h"
 
 /* A number that tells the nodes of a mesh apart. */
@@ -42,9 +43,18 @@ PetscErrorCode ContactCrossings_Private(Interface p, const Contact *c, PetscBool
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Is the pair made several times, for the faces of its mortar side? */
+static PetscBool IsParted_Private(const Interface p, const Contact *c)
+{
+  for (PetscInt i = 0; i < p->num_contacts; ++i)
+    if (&p->contacts[i] != c && p->contacts[i].spec->pair == c->spec->pair) return PETSC_TRUE;
+  return PETSC_FALSE;
+}
+
 PetscErrorCode ContactShared_Private(Interface p, Contact *c)
 {
-  PetscBool any = PETSC_FALSE, parted = PETSC_FALSE;
+  const PetscBool parted = IsParted_Private(p, c);
+  PetscBool       any    = parted;
 
   PetscFunctionBegin;
   if (!c->law->ties && !c->law->slips) PetscFunctionReturn(PETSC_SUCCESS);
@@ -55,8 +65,7 @@ PetscErrorCode ContactShared_Private(Interface p, Contact *c)
     any = (PetscBool)(any || c->shared[n]);
   }
   if (!any) PetscCall(PetscFree(c->shared)); /* no facet has to look */
-  for (PetscInt i = 0; i < p->num_contacts; ++i)
-    if (&p->contacts[i] != c && p->contacts[i].spec->pair == c->spec->pair) parted = PETSC_TRUE;
   ContactPairSetShared(c->pair, c->shared, parted);
+  if (c->shared) ContactPairSetSoftness(c->pair, c->softness); /* with small kinematics constraints of order 1 have none otherwise */
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -176,10 +176,7 @@ PetscErrorCode SlipFreeze_Private(Interface p, Contact *c, PetscBool *failed)
   PetscFunctionBegin;
   if (!s) PetscFunctionReturn(PETSC_SUCCESS);
   for (PetscInt k = 0; k < 2; ++k) PetscCall(LinkSet_Private(p, &c->side[k], c->side[k].places.num, c->side[k].places.nodes, &s->places[k]));
-  /* with small kinematics constraints of order 1 have no compliance, but tractions need one where other pairs constrain nodes as well */
-  if (c->shared) ContactPairSetSoftness(c->pair, c->softness);
   PetscCall(ContactPairKeepPoints(c->pair, &side[0], &side[1], failed));
-  if (!c->side[0].higher) ContactPairSetSoftness(c->pair, NULL);
   PetscCall(ContactPairSlip(c->pair, &side[0], &side[1], NULL, &s->num_facets, &s->facets));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -64,6 +64,7 @@ static void LinearStep(Solved *s, Vec x, PetscReal pressure, Vec dx, Mat *A, Vec
   OK(KSPGetPC(ksp, &pc));
   OK(PCSetType(pc, PCCHOLESKY));
   OK(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
+  OK(PetscOptionsSetValue(NULL, "-mat_mumps_icntl_14", "200")); /* beside busy processes the order of its messages, and with it the room it takes, varies */
   OK(KSPSolve(ksp, *rhs, y));
   OK(ProblemRecover(s->problem, y, dx));
   OK(KSPDestroy(&ksp));

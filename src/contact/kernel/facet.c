@@ -237,19 +237,17 @@ static PetscBool HasSharpCorner_Private(RayWork w, const ContactSurface *s, Pets
   return PETSC_FALSE;
 }
 
-/* Has the facet whose rows are at hand nodes that other pairs, or other parts of this one, constrain, too, and does its compliance for that matter to the
-   evaluation? */
+/* Has the facet whose rows are at hand nodes that other pairs, or other parts of this one, constrain, too? */
 static PetscBool IsShared_Private(ContactPair pair, const ContactSurface *s, PetscInt facet)
 {
   RayWork w = pair->ray;
 
-  if (!pair->ties && !pair->keeps) return PETSC_FALSE;
   for (PetscInt r = 0; r < w->result.num_rows && pair->shared; r++)
     if (pair->shared[w->result.node[r]]) return PETSC_TRUE;
   return (PetscBool)(pair->parted && HasSharpCorner_Private(w, s, facet));
 }
 
-/* Compliance of a facet that is covered in part, or tied and shared with other pairs. */
+/* Compliance of a facet that is covered in part, or has nodes that are shared. */
 static PetscErrorCode Compliance_Private(ContactPair pair, const ContactSurface *s, PetscInt facet, ContactFacet *out)
 {
   RayWork                  w          = pair->ray;
