@@ -19,12 +19,11 @@ typedef struct {
   PetscInt   num_history;
   PetscReal *history; /* owned [num_history] what the laws of this rank's cells remember from the last accepted step (MechanicsHistoryRange) */
   PetscInt   num_before;
-  PetscReal
-      *before; /* owned [num_before] of the last accepted step, which slip counts from: local displacements, this rank's multipliers; none without friction */
-  PetscReal t; /* pseudo-time of this state */
-  Form      form;
-  PetscInt  num_leaves;
-  int8_t   *leaf_order; /* owned [num_leaves], replicated */
+  PetscReal *before; /* owned [num_before] local displacements and this rank's multipliers that slip counts from; none without friction */
+  PetscReal  t;      /* pseudo-time of this state */
+  Form       form;
+  PetscInt   num_leaves;
+  int8_t    *leaf_order; /* owned [num_leaves], replicated */
 } State;
 
 PetscErrorCode StateCreate(Problem, State *);

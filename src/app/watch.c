@@ -14,7 +14,7 @@ static PetscErrorCode WatchPassage_Private(App *app)
   if (!(p.depth > 0)) PetscFunctionReturn(PETSC_SUCCESS);
   app->passage_told      = PETSC_TRUE;
   const CoarseMesh *mesh = ForestGetCoarse(app->level.forest);
-  if (p.pair < 0)
+  if (p.pair < 0 || app->data->contacts[p.pair].law == CONTACT_TIED)
     PetscCall(PetscStrncpy(contact, "no contact is there to stop it", sizeof(contact)));
   else
     PetscCall(PetscSNPrintf(contact, sizeof(contact), "contact pair %s has one of the faces there and does not keep the other off: name both in one pair",

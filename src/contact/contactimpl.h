@@ -36,19 +36,19 @@ typedef struct _p_RayWork *RayWork;
 struct _p_ContactPair {
   PetscInt                  dim;
   PetscBool                 axisymmetric, node_to_segment, standard;
-  PetscBool                 self;                                                       /* both sides are one surface */
-  const PetscInt           *precedence;                                                 /* borrowed: of its facets; NULL: none */
-  const PetscBool          *met;                                                        /* borrowed: those that cover others; NULL: all */
-  PetscBool                 held;                                                       /* directions do not vary */
-  PetscBool                 frozen_segmentation;                                        /* forces without the motion of lines of the mortar side */
-  PetscInt                  num_degenerate;                                             /* overlaps of the last evaluation that could not be used */
-  struct ContactMultiplier *multiplier;                                                 /* functions of the facets */
-  const PetscReal          *softness;                                                   /* borrowed; NULL: no compliance */
-  const PetscReal          *closed;                                                     /* borrowed: of nonmortar corners; NULL: 0 */
-  const PetscBool          *shared;                                                     /* borrowed: of nodes; NULL: no node is */
-  PetscBool                 parted;                                                     /* one of several for the faces of the mortar side */
-  PetscBool                 friction;
-  RayWork                   ray;                                                        /* work space; NULL before the first search */
+  PetscBool                 self;                /* both sides are one surface */
+  const PetscInt           *precedence;          /* borrowed: of its facets; NULL: none */
+  const PetscBool          *met;                 /* borrowed: those that cover others; NULL: all */
+  PetscBool                 held;                /* directions do not vary */
+  PetscBool                 frozen_segmentation; /* forces without the motion of lines of the mortar side */
+  PetscInt                  num_degenerate;      /* overlaps of the last evaluation that could not be used */
+  struct ContactMultiplier *multiplier;          /* functions of the facets */
+  const PetscReal          *softness;            /* borrowed; NULL: no compliance */
+  const PetscReal          *closed;              /* borrowed: of nonmortar corners; NULL: 0 */
+  const PetscBool          *shared;              /* borrowed: of nodes; NULL: no node is */
+  PetscBool                 parted;              /* one of several for the faces of the mortar side */
+  PetscBool                 friction;            /* facets have no image in a plane of symmetry with which they make an edge */
+  RayWork                   ray;                 /* work space; NULL before the first search */
   PetscInt                  num_nodes, num_facets, num_mortar_nodes, num_mortar_facets; /* of the last search */
   /* candidates: mortar facets of listed facet i are candidate[start[i] .. start[i+1]), ascending */
   PetscInt        num_listed, *listed, *start, *candidate, size_candidate; /* owned */

@@ -109,8 +109,8 @@ static PetscBool HasImage_Private(const Surface *s, PetscInt n, PetscInt facet, 
   return (PetscBool)!ContactImageMakesEdge(&at, CornerInPlane_Private(s, n, facet, plane), plane);
 }
 
-/* Mean unit normal of the facets at a node, those between the corners, and of their mirror images in planes of symmetry, with friction where these make no edge;
-   reference positions. */
+/* Mean unit normal of the facets at a node, those between the corners, and of their mirror images in planes of symmetry, with friction where these make no
+   edge; reference positions. */
 static void NodeNormal_Private(const Surface *s, PetscInt n, PetscBool friction, PetscReal normal[3])
 {
   const PetscInt dim = s->dim;

@@ -2,9 +2,9 @@
 
    Where two blocks that are glued to each other, or held by friction, meet a wall, the gap of both corners to the wall and the motion of one corner along the
    other are three constraints of two motions. They do not contradict each other, but tractions are not unique: what is found is any of them, and nodes that
-   press are told to be open. So there tractions have a compliance that does not see those which are constant on a facet (include/contact.h). So they have at the
-   corner of a block that sticks to both walls of a groove, which are faces of one pair, and where a support leaves a node one direction, oblique to the surface,
-   in which its gap and its slip are the same. */
+   press are told to be open. So there tractions have a compliance that does not see those which are constant on a facet (include/contact.h). So they have at
+   the corner of a block that sticks to both walls of a groove, which are faces of one pair, and where a support leaves a node one direction, oblique to the
+   surface, in which its gap and its slip are the same. */
 #include "interfaceimpl.h"
 
 /* A number that tells the nodes of a mesh apart. */
