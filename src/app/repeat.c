@@ -39,8 +39,8 @@ static void Begin_Private(App *app)
   app->load_steps = 0;
   app->dt         = app->data->load.step;
   app->arc = app->arc_first = app->speed = 0;
-  app->path.flow_error                   = 0;
-  app->path.status                       = (ProblemStatus){0};
+  app->path.flow_error = app->path.all_viscous_work = 0;
+  app->path.status                                  = (ProblemStatus){0};
 }
 
 /* Files and screen: a checkpoint first, for it alone tells tables and fields of one path from those of another; then what the path left goes aside. */

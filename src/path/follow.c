@@ -185,10 +185,11 @@ PetscErrorCode PathFollow(Path *p, PathLoop *loop, SolverReport *report)
   PetscCall(StateCreate(l->problem, &start));
   PetscCall(StateCopy(&l->state, &start));
   while (!done) {
-    const PetscReal next = loop->metric->end(p, loop);
+    const PetscReal next = loop->metric->end(p, loop), work = p->viscous_work;
     PetscReal       rolled;
     PetscBool       recovered;
     PetscCall(Piece_Private(p, loop, next, &start, &rolled, &recovered, report));
+      p->viscous_work = work;
     if (IsTooLong_Private(p, loop, next, rolled)) {
       PetscCall(PathRestore(p, &start));
       continue;

@@ -10,9 +10,11 @@
 #define CREEP 10           /* first step of pseudo-time: cells answer to a change of shape with a tenth of their stiffness more */
 #define CREEP_STEPS 20     /* attempts in all */
 
+/* What the step took to come to another state than the accepted one is not on the way from there. */
 static PetscErrorCode Begin_Private(Path *p, const State *guess)
 {
   PetscFunctionBegin;
+  if (!guess) p->viscous_work = 0;
   PetscCall(PathRestore(p, guess ? guess : &p->level->accepted));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -139,16 +141,11 @@ static PetscErrorCode Viscous_Private(Path *p, const PathLoop *load, PetscReal t
                    .load     = load,
                    .at       = to};
 
-  const PetscReal before = p->viscous_work;
-
   PetscFunctionBegin;
   PetscCall(Begin_Private(p, NULL));
   PetscCall(PathFollow(p, &loop, report));
   PetscCall(ProblemSetViscosity(p->level->problem, 0, NULL));
-  if (!report->converged)
-    p->viscous_work = before;
-  else if (InterfaceSlips(ProblemInterface(p->level->problem)))
-    PetscCall(Slipped_Private(p, load, to, report));
+  if (report->converged && InterfaceSlips(ProblemInterface(p->level->problem))) PetscCall(Slipped_Private(p, load, to, report));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -193,12 +190,14 @@ static PetscBool Applies_Private(const Path *p, PetscInt row, const State *guess
 /* Run a row; *report is replaced where it succeeds. */
 static PetscErrorCode Try_Private(Path *p, PetscInt row, const PathLoop *load, PetscReal to, const State *guess, SolverReport *report)
 {
-  SolverReport own = {.reason = "not tried"};
+  const PetscReal work = p->viscous_work;
+  SolverReport    own  = {.reason = "not tried"};
 
   PetscFunctionBegin;
   ++p->recovery[row].tried;
   PetscCall(PathRecoveries[row].run(p, load, to, guess, &own));
   PetscCall(PetscInfo(NULL, "recovery %s: %s\n", PathRecoveries[row].name, own.converged ? "found" : own.reason));
+  if (!own.converged) p->viscous_work = work;
   if (!own.converged) PetscFunctionReturn(PETSC_SUCCESS);
   ++p->recovery[row].succeeded;
   *report = own;
