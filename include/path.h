@@ -41,7 +41,7 @@ typedef struct {
   const SceneData *data;  /* borrowed */
   PetscInt         step_cuts, newton_iterations, set_changes, set_cycles, factorisations, single_failures;
   PetscInt         descent_iterations;               /* tangents of descents, besides Newton's */
-  PetscInt         unstable, judged;                 /* judged: equilibria of which it is known whether they are stable */
+  PetscInt         unstable, judged;                 /* accepted though unstable; equilibria found of which it is known whether they are stable */
   PetscInt         stabilised;                       /* that took the place of unstable ones */
   PetscInt         folded_left;                      /* cells that were to be split and stayed as they were, for they are folded at a corner */
   PetscBool        unstable_now;                     /* the last equilibrium found is unstable */
@@ -49,7 +49,7 @@ typedef struct {
   PetscInt         modifiers_in_step, iterations_in_step, cuts_in_step;
   PetscInt         failures;                       /* attempts of this load step in vain; a step shorter than asked for begins with one */
   PetscReal        viscous_work, all_viscous_work; /* energy that viscous regularisation dissipated in the step at hand, in all steps accepted */
-  PetscReal        flow_error;                     /* of all steps accepted, in the energy norm (StateFlowError) */
+  PetscReal        flow_error, energy;             /* of all steps accepted, in the energy norm (StateFlowError); strain energy of the accepted state */
   PetscBool        limit_point;                    /* loads are near a limit point: no equilibrium farther off is looked for */
   PetscBool        stopped;                        /* the run was asked to stop */
   ProblemStatus    status;                         /* of the last solution */

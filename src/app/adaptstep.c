@@ -105,7 +105,9 @@ static PetscErrorCode Reequilibrate_Private(App *app, PetscInt *iterations, Pets
 static PetscErrorCode RefineOnce_Private(App *app, RefineMode mode, MarkList *layers, PetscInt *iterations, PetscBool *more, PetscBool *gave_up,
                                          PetscBool *folded)
 {
-  Level old = app->level;
+  Level               old      = app->level;
+  const ProblemStatus status   = app->path.status;
+  const PetscBool     unstable = app->path.unstable_now;
 
   PetscFunctionBegin;
   *folded = PETSC_FALSE;
@@ -119,9 +121,11 @@ static PetscErrorCode RefineOnce_Private(App *app, RefineMode mode, MarkList *la
     app->flowed_coarse += app->flowed;
   } else {
     PetscCall(LevelDestroy(&app->level));
-    app->level      = old;
-    app->adapt_stop = NONE_FINER;
-    *gave_up        = PETSC_TRUE;
+    app->level             = old;
+    app->path.status       = status; /* of a solution that was refused, else */
+    app->path.unstable_now = unstable;
+    app->adapt_stop        = NONE_FINER;
+    *gave_up               = PETSC_TRUE;
     PetscCall(PathPrescribe(old.problem, old.state.t));
   }
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -63,8 +63,8 @@ typedef struct {
   PetscReal        rough_error, rough_t, rough_norm; /* largest estimate of an accepted step, its time; largest norm */
   Folded           folded;                           /* most cells that an accepted step folded … */
   PetscReal        folded_t;                         /* … and its time */
-  PetscReal        unstable_t;                       /* when a solution was first found unstable … */
-  PetscBool        unstable_known, passage_told;     /* … if one was; that a surface passes through itself */
+  PetscReal        unstable_t;                       /* when a solution was first accepted though unstable */
+  PetscBool        passage_told;                     /* that a surface passes through itself */
   PetscInt         flowed, flowed_coarse;            /* has material at the accepted state; meshes refined after that, which went on from there */
   PetscBool        apart_known;                      /* bodies that no pair is between: there are none, or that they pass through each other is told */
   PetscReal        most_scale;                       /* largest ProblemStatus.scale of an accepted step */

@@ -77,12 +77,14 @@ static PetscErrorCode Accept_Private(App *app)
   PetscCall(ProblemDistance(l->problem, NULL, l->state.x, &way));
   app->speed = way > 0 && l->state.t > t0 ? step / (l->state.t - t0) / (way / l->state.t) : 0;
   PetscCall(Direction_Private(app));
-  app->most_energy = PetscMax(app->most_energy, app->balance.status.energy);
+  app->path.energy = app->balance.status.energy;
+  app->most_energy = PetscMax(app->most_energy, app->path.energy);
   PetscCall(StateFlowError(l->problem, &l->accepted, &l->state, &flow));
   app->path.flow_error += PetscSqrtReal(2 * flow);
   PetscCall(StateCommit(l->problem, &l->state));
   PetscCall(StateCopy(&l->state, &l->accepted));
   ++app->load_steps;
+  if (app->path.unstable_now && app->path.unstable++ == 0) app->unstable_t = l->state.t;
   app->path.all_viscous_work += app->path.viscous_work;
   app->last.dt                = l->state.t - t0;
   app->last.step              = app->load_steps;

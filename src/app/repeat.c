@@ -36,8 +36,8 @@ PetscErrorCode AppRemember(App *app)
 /* Everything that a path counts, as before its first step. */
 static void Begin_Private(App *app)
 {
-  app->load_steps = 0;
-  app->dt         = app->data->load.step;
+  app->load_steps = app->path.unstable = 0;
+  app->dt                              = app->data->load.step;
   app->arc = app->arc_first = app->speed = 0;
   app->path.flow_error = app->path.all_viscous_work = 0;
   app->path.status                                  = (ProblemStatus){0};

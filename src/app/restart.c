@@ -40,8 +40,10 @@ static const struct {
     {"speed", offsetof(App, speed)},
     {"viscous_work", offsetof(App, path.all_viscous_work)},
     {"flow_error", offsetof(App, path.flow_error)},
+    {"energy", offsetof(App, path.energy)},
     {"largest_displacement", offsetof(App, path.status.largest)},
     {"largest_error", offsetof(App, largest.relative)},
+    {"first_unstable", offsetof(App, unstable_t)},
 };
 /* ---- options ------------------------------------------------------------------------------------------------------------------- */
 

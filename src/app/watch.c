@@ -132,8 +132,6 @@ PetscErrorCode AppWatch(App *app)
   PetscFunctionBegin;
   WatchEstimate_Private(app);
   app->flowed = app->balance.plastic_strain > 0;
-  if (app->path.unstable > 0 && !app->unstable_known) app->unstable_t = app->level.accepted.t;
-  app->unstable_known = (PetscBool)(app->path.unstable > 0);
   PetscCall(WatchPassage_Private(app));
   PetscCall(PetscSNPrintf(at, sizeof(at), "at t = %.6g", (double)app->level.accepted.t));
   if (app->data->mechanics.kinematics == KINEMATICS_FINITE) PetscCall(WatchApart_Private(app, at));
@@ -146,7 +144,7 @@ PetscErrorCode AppWatch(App *app)
    than the mesh does. */
 static PetscErrorCode WarnFlow_Private(App *app)
 {
-  const PetscReal norm = PetscSqrtReal(2 * app->path.status.energy), most = PetscMax(app->data->adapt.tolerance, app->last.estimated_error);
+  const PetscReal norm = PetscSqrtReal(2 * app->path.energy), most = PetscMax(app->data->adapt.tolerance, app->last.estimated_error);
 
   PetscFunctionBegin;
   if (app->flowed_coarse)
@@ -241,8 +239,7 @@ PetscErrorCode AppWarn(App *app)
                          100 * (double)share, (double)app->rough_t, 100 * (double)PetscSqr(share)));
   }
   if (app->path.unstable > 0)
-    PetscCall(WarningAdd(app->comm, "%" PetscInt_FMT " %s unstable, the first %sat t = %.6g: the least disturbance would lead to another equilibrium",
-                         app->path.unstable, app->path.unstable == 1 ? "solution is" : "solutions are", app->restart[0] ? "since the restart " : "",
-                         (double)app->unstable_t));
+    PetscCall(WarningAdd(app->comm, "%" PetscInt_FMT " %s unstable, the first at t = %.6g: the least disturbance would lead to another equilibrium",
+                         app->path.unstable, app->path.unstable == 1 ? "solution is" : "solutions are", (double)app->unstable_t));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -231,7 +231,7 @@ static void AddRecoveries_Private(cJSON *root, const Path *path)
     AddNumber_Private(row, "succeeded", (PetscReal)path->recovery[i].succeeded);
   }
   AddNumber_Private(root, "viscous_work", path->all_viscous_work);
-  AddNumber_Private(root, "flow_error", path->status.energy > 0 ? path->flow_error / PetscSqrtReal(2 * path->status.energy) : 0);
+  AddNumber_Private(root, "flow_error", path->energy > 0 ? path->flow_error / PetscSqrtReal(2 * path->energy) : 0);
   AddNumber_Private(root, "descent_iterations", (PetscReal)path->descent_iterations);
   AddNumber_Private(root, "refused_solutions", (PetscReal)path->refusal[PATH_INSIDE].num);
   AddNumber_Private(root, "passed_through", (PetscReal)path->refusal[PATH_THROUGH].num);

@@ -57,7 +57,6 @@ PetscErrorCode PathStabilise(Path *p, PetscBool *changed)
   report.converged = *changed;
   PathCount(p, &report, PETSC_FALSE);
   if (*changed) {
-    --p->unstable; /* it is gone */
     p->unstable_now = PETSC_FALSE;
     if (p->stabilised++ == 0)
       PetscCall(

@@ -44,7 +44,6 @@ void PathCount(Path *p, const SolverReport *report, PetscBool equilibrium)
   if (!report->converged) return;
   p->status = report->status;
   if (equilibrium && report->unstable >= 0) ++p->judged;
-  if (equilibrium && report->unstable > 0) ++p->unstable;
   if (equilibrium) p->unstable_now = (PetscBool)(report->unstable > 0);
 }
 
@@ -189,8 +188,8 @@ PetscErrorCode PathFollow(Path *p, PathLoop *loop, SolverReport *report)
     PetscReal       rolled;
     PetscBool       recovered;
     PetscCall(Piece_Private(p, loop, next, &start, &rolled, &recovered, report));
-      p->viscous_work = work;
     if (IsTooLong_Private(p, loop, next, rolled)) {
+      p->viscous_work = work;
       PetscCall(PathRestore(p, &start));
       continue;
     }

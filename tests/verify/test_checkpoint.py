@@ -519,3 +519,10 @@ def test_forged_contents_are_refused(run, broken_off, tmp_path, name, at, value,
     seal(forged)
     result = go_on(run, broken_off, SMALL[0], *SMALL[1], "-check", restart=forged, ranks=ranks)
     assert result.returncode == 1 and len([line for line in result.stderr.splitlines() if line.startswith("mortise: -restart")]) == 1, result
+
+
+def test_flow_error_where_nothing_was_left_to_do(run):
+    """It is relative to the energy of the accepted state, which a run that goes on from the end has not computed."""
+    result = run("tests/gauntlet/forge.yml", "-output_fields", "false")
+    again = run("tests/gauntlet/forge.yml", "-output_fields", "false", "-restart", result.directory / "checkpoint.h5")
+    assert again.returncode == 0 and again.summary["flow_error"] == result.summary["flow_error"] > 0, again

@@ -43,6 +43,24 @@ def test_column_buckles(run, tmp_path):
     assert s["energy"] < 0.7 * straight.summary["energy"]
 
 
+ADAPTED = ("-adapt_tolerance", 1e-6, "-adapt_max_passes", 2)
+
+
+@pytest.mark.parametrize("repeat", ["step", "path"])
+def test_accepted_ones_are_counted(run, tmp_path, repeat):
+    """Passes of adaptation, and paths, on coarser meshes find unstable states too: those that are kept count, and none is warned of where all of these gave way."""
+    kept, gone = (run("column.yml", *ADAPTED, "-adapt_repeat", repeat, text=column(tmp_path, 3 * EULER, 3, stable=stable)) for stable in (False, True))
+    assert kept.solved and kept.summary["unstable_equilibria"] == 2 and "2 solutions are unstable, the first at t = 0.666667" in kept.stdout, kept
+    assert gone.solved and gone.summary["stabilised"] > 0 and gone.summary["unstable_equilibria"] == 0 and "unstable, the first" not in gone.stdout, gone
+
+
+def test_the_first_is_told_after_a_restart(run, tmp_path):
+    text = column(tmp_path, 3 * EULER, 3, stable=False)
+    part = run("column.yml", "-load_max_steps", 2, text=text)
+    result = solved(run, text, "-restart", part.directory / "checkpoint.h5")
+    assert "2 solutions are unstable, the first at t = 0.666667" in result.stdout, result
+
+
 @pytest.mark.parametrize("order,condense", [(1, "no"), (3, "yes")])
 def test_same_side_on_any_number_of_ranks(run, tmp_path, order, condense):
     one, two = (solved(run, column(tmp_path, 3 * EULER, 1, order=order), "-solve_condense", condense, ranks=ranks).summary for ranks in (1, 2))
