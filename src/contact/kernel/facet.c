@@ -237,14 +237,15 @@ static PetscBool HasSharpCorner_Private(RayWork w, const ContactSurface *s, Pets
   return PETSC_FALSE;
 }
 
-/* Has the facet whose rows are at hand nodes that other pairs, or other parts of this one, constrain, too? */
+/* Has the facet whose rows are at hand nodes that other pairs constrain, too, or in their slip other parts of this pair? (Which of the faces round an edge a
+   node meets, changes: pressures that were to be alike on the facet would be spread to where nothing touches, and sets go in circles.) */
 static PetscBool IsShared_Private(ContactPair pair, const ContactSurface *s, PetscInt facet)
 {
   RayWork w = pair->ray;
 
   for (PetscInt r = 0; r < w->result.num_rows && pair->shared; r++)
     if (pair->shared[w->result.node[r]]) return PETSC_TRUE;
-  return (PetscBool)(pair->parted && HasSharpCorner_Private(w, s, facet));
+  return (PetscBool)(pair->parted && pair->keeps && HasSharpCorner_Private(w, s, facet));
 }
 
 /* Compliance of a facet that is covered in part, or has nodes that are shared. */
