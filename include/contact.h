@@ -208,10 +208,6 @@ PetscErrorCode ContactPairSearch(ContactPair, const ContactSurface *nonmortar, c
 void ContactPairGoOn(ContactPair, PetscBool yes);
 /* The last search is that of an iterate, from which those of trial steps go on, however many there are; one that does not go on is kept by itself. */
 void ContactPairKeepSearch(ContactPair);
-/* The last search is that of a solution. Resume: searches go on from that one, if there is any: a solution found with pairs of facets that a search would not
-   find by itself is one with them only. The list of facets is to be that of then. Not collective. */
-PetscErrorCode ContactPairSettleSearch(ContactPair);
-PetscErrorCode ContactPairResumeSearch(ContactPair);
 
 /* How deep the last search found sides of another body that it took for far ones, though they are not clearly as deep as both bodies measure: overlaps beyond
    what can be told. 0: none. Not collective. */

@@ -186,10 +186,8 @@ PetscErrorCode InterfaceGetSlipPoints(Interface, PetscInt pair, PetscInt *num, C
 /* ---- residual ----------------------------------------------------------------------------------------------------------------- */
 
 /* The candidate search at the local displacements u. Surfaces that may meet themselves are given their roles there, while they bear nothing by the multipliers
-   of x and on a new mesh. goes_on: from the one kept (ContactPairGoOn), else from that of the last solution, if there is one on this mesh. Collective. */
+   of x and on a new mesh. goes_on: from the one kept (ContactPairGoOn). Collective. */
 PetscErrorCode InterfaceSearch(Interface, Vec x, const PetscReal u[], PetscBool goes_on);
-/* The last search is that of a solution, from which the next ones go on (ContactPairSettleSearch). Not collective. */
-PetscErrorCode InterfaceSettleSearch(Interface);
 /* The last search is that of an iterate: searches that go on do so from it (ContactPairKeepSearch). Not collective. */
 void InterfaceKeepSearch(Interface);
 /* Gaps, weights, activity and facets at the multipliers of x and the displacements u, with derivatives of the gaps, and with Hessians too: then at the

@@ -53,7 +53,6 @@ struct _p_ContactPair {
   /* candidates: mortar facets of listed facet i are candidate[start[i] .. start[i+1]), ascending */
   PetscInt        num_listed, *listed, *start, *candidate, size_candidate; /* owned */
   Found           base, last;                                              /* of the search that others go on from, of the last one … */
-  Found           settled;                                                 /* of the last one at a solution */
   PetscBool       is_newer;                                                /* … which is not yet the former */
   PetscBool       goes_on;                                                 /* the next search, from there */
   PetscReal       distance, margin;

@@ -21,8 +21,8 @@ PetscErrorCode ContactPairDestroy(ContactPair *pair)
 
   PetscFunctionBegin;
   if (!p) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(FreeAll(17, (void *[]){&p->listed, &p->start, &p->candidate, &p->base.start, &p->base.found, &p->last.start, &p->last.found, &p->settled.start,
-                                   &p->settled.found, &p->normal, &p->output, &p->ids, &p->result, &p->slot, &p->state.x[0], &p->state.x[1], &p->state.z}));
+  PetscCall(FreeAll(15, (void *[]){&p->listed, &p->start, &p->candidate, &p->base.start, &p->base.found, &p->last.start, &p->last.found, &p->normal, &p->output,
+                                   &p->ids, &p->result, &p->slot, &p->state.x[0], &p->state.x[1], &p->state.z}));
   PetscCall(ContactSlipDestroy(&p->slip));
   PetscCall(ContactRayWorkDestroy(&p->ray));
   PetscCall(ContactMultiplierDestroy(&p->multiplier));

@@ -185,14 +185,18 @@ static PetscErrorCode Candidates_Private(ContactPair pair, const ContactSurface 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode Remember_Private(PetscInt num, const PetscInt start[], const PetscInt found[], Found *f)
+static PetscErrorCode Remember_Private(ContactPair pair)
 {
+  const PetscInt num = pair->num_listed, total = pair->start[num];
+  Found         *f = &pair->last;
+
   PetscFunctionBegin;
   PetscCall(ArrayGrow(num + 1, sizeof(PetscInt), &f->size_start, &f->start));
-  PetscCall(ArrayGrow(start[num], sizeof(PetscInt), &f->size_found, &f->found));
-  PetscCall(PetscArraycpy(f->start, start, num + 1));
-  PetscCall(PetscArraycpy(f->found, found, start[num]));
-  f->num = num;
+  PetscCall(ArrayGrow(total, sizeof(PetscInt), &f->size_found, &f->found));
+  PetscCall(PetscArraycpy(f->start, pair->start, num + 1));
+  PetscCall(PetscArraycpy(f->found, pair->candidate, total));
+  f->num         = num;
+  pair->is_newer = PETSC_TRUE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -209,27 +213,6 @@ void ContactPairKeepSearch(ContactPair pair)
 void ContactPairGoOn(ContactPair pair, PetscBool yes)
 {
   pair->goes_on = yes;
-}
-
-PetscErrorCode ContactPairSettleSearch(ContactPair pair)
-{
-  const Found *f = pair->is_newer ? &pair->last : &pair->base;
-
-  PetscFunctionBegin;
-  if (f->start) PetscCall(Remember_Private(f->num, f->start, f->found, &pair->settled));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode ContactPairResumeSearch(ContactPair pair)
-{
-  const Found *f = &pair->settled;
-
-  PetscFunctionBegin;
-  if (!f->start) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(Remember_Private(f->num, f->start, f->found, &pair->base));
-  pair->is_newer = PETSC_FALSE;
-  pair->goes_on  = PETSC_TRUE;
-  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* What a search knows of the nonmortar side: directions, the list. */
@@ -264,8 +247,7 @@ PetscErrorCode ContactPairSearch(ContactPair pair, const ContactSurface *nonmort
   PetscCall(PetscMalloc3(mortar->num_facets, &found, mortar->num_facets, &known, mortar->num_facets, &grazed));
   PetscCall(MortarTree_Private(mortar, known, &tree));
   PetscCall(Candidates_Private(pair, nonmortar, mortar, &tree, known, found, grazed));
-  PetscCall(Remember_Private(pair->num_listed, pair->start, pair->candidate, &pair->last));
-  pair->is_newer = PETSC_TRUE;
+  PetscCall(Remember_Private(pair));
   if (!pair->goes_on) ContactPairKeepSearch(pair);
   PetscCall(PetscFree3(found, known, grazed));
   PetscCall(ContactTreeDestroy(&tree));

@@ -163,28 +163,19 @@ PetscErrorCode InterfaceSearch(Interface p, Vec x, const PetscReal u[], PetscBoo
     Contact       *c = &p->contacts[i];
     PetscLogDouble begin;
     PetscCall(PetscTime(&begin));
-    const PetscBool frozen = (PetscBool)(p->spec->kinematics == KINEMATICS_SMALL || c->tie);
-    ContactPairGoOn(c->pair, goes_on);
-    if (!frozen && !goes_on) PetscCall(ContactPairResumeSearch(c->pair));
     PetscCall(SlipKeep_Private(p, c));
-    if (frozen) continue;
+    if (p->spec->kinematics == KINEMATICS_SMALL || c->tie) continue;
     for (PetscInt k = 0; k < 2; ++k) {
       SurfaceForget_Private(&c->side[k]);
       SurfacePlace_Private(&c->side[k], u, ContactBase_Private(c, k), c->side[k].x);
     }
+    ContactPairGoOn(c->pair, goes_on);
     PetscCall(ContactSearch_Private(p, c, PETSC_FALSE, NEAR * c->distance));
     ContactPairGoOn(c->pair, PETSC_FALSE);
     const PetscBool last = (PetscBool)(i + 1 == p->num_contacts || !p->contacts[i + 1].spec->part); /* of the pair's parts */
     if (c->spec->self && last) PetscCall(ContactRoles_Private(p, c->spec->part + 1, c - c->spec->part, x, u));
     PetscCall(Took_Private(c, begin));
   }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode InterfaceSettleSearch(Interface p)
-{
-  PetscFunctionBegin;
-  for (PetscInt i = 0; i < p->num_contacts; ++i) PetscCall(ContactPairSettleSearch(p->contacts[i].pair));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -214,7 +214,6 @@ static PetscErrorCode SNESSolve_ContactNewton(SNES snes)
     PetscCall(Iterate_Private(s, &it, snes->vec_sol_update));
     ++it.number;
   }
-  if (snes->reason > 0) PetscCall(InterfaceSettleSearch(ProblemInterface(s->problem)));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -257,34 +257,6 @@ static void Trials(void **state)
   ChainDestroy(&nonmortar);
 }
 
-/* A solution keeps the pairs of facets that it was found with, beyond 72.5 degrees, whatever is looked for in between, until another one is found without. */
-static void Resumed(void **state)
-{
-  Chain       nonmortar;
-  ContactPair pair;
-
-  ChainLine(&nonmortar, 2, 1, 0, 0, 0);
-  PairCreate(PETSC_FALSE, PETSC_FALSE, &pair);
-  CHECK_CALL(ContactPairSettleSearch(pair)); /* nothing was looked for as yet */
-  CHECK_CALL(ContactPairResumeSearch(pair));
-  assert_int_equal(At(pair, &nonmortar, 75), 0);
-  assert_int_equal(At(pair, &nonmortar, 70), 1);
-  CHECK_CALL(ContactPairSettleSearch(pair));
-  assert_int_equal(At(pair, &nonmortar, 75), 0);
-  for (int k = 0; k < 2; k++) {
-    CHECK_CALL(ContactPairResumeSearch(pair));
-    assert_int_equal(At(pair, &nonmortar, 75), 1);
-    assert_int_equal(At(pair, &nonmortar, 100), 0);
-    ContactPairKeepSearch(pair);
-    assert_int_equal(At(pair, &nonmortar, 75), 0);
-  }
-  CHECK_CALL(ContactPairSettleSearch(pair));
-  CHECK_CALL(ContactPairResumeSearch(pair));
-  assert_int_equal(At(pair, &nonmortar, 75), 0);
-  CHECK_CALL(ContactPairDestroy(&pair));
-  ChainDestroy(&nonmortar);
-}
-
 /* A groove with flanks at 45 degrees; in it facets of `turn` degrees each, joined to a nose or apart, the first with its normal 50 degrees left of downwards.
    How many of them the right flank has for candidates. */
 static PetscInt InGroove(PetscInt num_facets, PetscReal turn, PetscBool joined)
@@ -596,5 +568,4 @@ static void Strip(void **state)
 
 CONTACT_TEST_MAIN("contact: search", cmocka_unit_test(BruteForce), cmocka_unit_test(Margin), cmocka_unit_test(Near), cmocka_unit_test(Groove),
                   cmocka_unit_test(Layers), cmocka_unit_test(Shoulder), cmocka_unit_test(Behind), cmocka_unit_test(Grazing), cmocka_unit_test(Trials),
-                  cmocka_unit_test(Resumed), cmocka_unit_test(FarSides), cmocka_unit_test(Strip), cmocka_unit_test(LargeSliding), cmocka_unit_test(Empty),
-                  cmocka_unit_test(Time))
+                  cmocka_unit_test(FarSides), cmocka_unit_test(Strip), cmocka_unit_test(LargeSliding), cmocka_unit_test(Empty), cmocka_unit_test(Time))
