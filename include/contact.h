@@ -168,8 +168,8 @@ PetscErrorCode ContactPairSetCarriers(ContactPair, const ContactSurface *nonmort
    compliances. Not collective. */
 void ContactPairSetSoftness(ContactPair, const PetscReal softness[]);
 /* Nodes of the nonmortar side that other pairs constrain as well (NULL: none): their facets have a compliance from then on, the largest one of a facet that is
-   covered in part. parted: the pair is made once for each of several faces of the mortar side, and so
-   are constraints of nodes on sharp edges of the nonmortar one: the same, but for slips alone. Borrowed. Not collective. */
+   covered in part. parted: the pair is made once for each of several faces of the mortar side, and so are constraints of nodes on sharp edges of the nonmortar
+   one: the same, but for slips alone. Borrowed. Not collective. */
 void ContactPairSetShared(ContactPair, const PetscBool shared[], PetscBool parted);
 /* Lengths along the rays that count as no gap (NULL: 0): gt_j = int psi_j (s - closed / |d|) d.n, closed linear on each facet between its corners. Forces and
    derivatives are those of what is left. closed[nonmortar num_nodes], of corners that do not hang, user's units of length; borrowed, and to be set again when a

@@ -450,7 +450,8 @@ void           ContactCarriers_Private(Interface, Contact *);
 /* Do supports leave a node of the nonmortar side free along an axis of the coordinates, and has it weight there? Until the rows of the matrix are known. */
 PetscBool ContactIsFree_Private(const Interface, const Contact *, PetscInt node, PetscInt axis);
 /* The number of directions along the surface in which supports hold the node; of one, axis. Until the rows of the matrix are known. */
-PetscInt  ContactHeldAxes_Private(const Surface *, PetscInt node, PetscReal axis[3]);
+PetscInt ContactHeldAxes_Private(const Surface *, PetscInt node, PetscReal axis[3]);
+/* With friction: does a support hold the node in a direction oblique to the surface, so that what is left to it changes gap and slip alike? */
 PetscBool ContactHeldObliquely_Private(const Surface *, PetscInt node);
 PetscReal SurfaceFacetMeasure_Private(const Surface *, PetscInt facet, PetscBool axisymmetric);
 /* slip.c: nothing where the law has no friction. Create: after the multipliers. Keep: before a search; points where slip counts from, if they are not kept yet.

@@ -93,7 +93,6 @@ static inline void BulkSolve(const Bulk *b, PetscReal u[])
     OK(KSPGetPC(ksp, &pc));
     OK(PCSetType(pc, PCCHOLESKY));
     OK(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
-    OK(PetscOptionsSetValue(NULL, "-mat_mumps_icntl_14", "200")); /* the room that it takes varies beside busy processes */
     OK(KSPSolve(ksp, rhs, dx));
     OK(VecGetArray(dx, &x));
     for (PetscInt i = 0; i < v->num_nodes * v->dim; ++i)

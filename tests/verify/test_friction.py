@@ -636,7 +636,7 @@ def test_in_a_corner(run, order):
 @pytest.mark.parametrize("order", ["1", "2"])
 def test_in_the_corner_of_a_tray(run, order):
     """Floor and wall may be one boundary: the pair is made for each of its faces, and the state is that of two pairs."""
-    scene = (ROOT / "tests/gauntlet/corner_stick.yml").read_text().replace("corner_stick.geo", str(SCENES / "tray.geo"))
+    scene = (GAUNTLET / "corner_stick.yml").read_text().replace("corner_stick.geo", str(SCENES / "tray.geo"))
     scene = scene.replace("floor: {material: iron}, wall:", "tray:").replace("f: {nonmortar: under, mortar: ground, friction: 0.8}, w: {nonmortar: left, mortar: face,",
                                                                              "f: {nonmortar: skin, mortar: walls,")
     pairs = run("tests/gauntlet/corner_stick.yml", "-order", order)
@@ -710,6 +710,25 @@ def test_patch_to_an_oblique_support(run, model, order, sides):
     assert result.returncode == 0 and result.summary["estimated_error"] < 1e-6, result
     assert result.summary["energy"] == pytest.approx(energy * 1.2 * {"plane_strain": 1, "axisymmetric": math.pi, "3d": 0.5}[model], rel=1e-10)
     assert result.summary["contact"]["j"]["max_pressure"] == pytest.approx(pressure, rel=1e-9)
+
+
+def test_oblique_support_on_ranks(run):
+    results = [run("oblique.yml", ranks=ranks, text=OBLIQUE % (SCENES / "oblique.geo", ", parameter: {depth: 0.5}", "3d", ", back: {fix: z}", "under", "over")) for ranks in (1, 2, 3)]
+    figures = [(result.summary["energy"], result.summary["contact"]["j"]["max_pressure"]) for result in results]
+    print(figures)
+    assert figures[1] == pytest.approx(figures[0], rel=1e-10) and figures[2] == pytest.approx(figures[0], rel=1e-10)
+
+
+@pytest.mark.parametrize("order", [1, 2])
+def test_tangent_at_an_oblique_support(run, order):
+    """Exact, and Newton's method quadratic. (Where both sides end at one place the cover of facets has a kink there, which differences cross.)"""
+    scene = OBLIQUE % (SCENES / "oblique.geo", ", parameter: {beyond: 0.2}", "plane_strain", "", "under", "over")
+    result = run("oblique.yml", "-order", order, "-load_step", 1, "-snes_test_jacobian", "-snes_monitor", text=scene)
+    error = [float(line.split("=")[1].split(",")[0]) for line in result.stdout.splitlines() if "||J - Jfd||_F/||J||_F =" in line]
+    norm = [float(line.split()[4]) for line in result.stdout.splitlines() if "SNES Function norm" in line]
+    print(error, norm)
+    assert result.returncode == 0 and len(error) > 3 and max(error) < 1e-6
+    assert norm[-2] < 1e-4 and norm[-1] < 1e-4 * norm[-2], norm
 
 
 def wheel(run, *words, **keys):

@@ -1,9 +1,9 @@
-// A block cut at 30 degrees, one face of which is to be held: depth > 0: in space
+// A block cut at 30 degrees, one face of which is to be held. depth > 0: in space; beyond: what the upper part reaches beyond both sides of the lower one
 SetFactory("OpenCASCADE");
-DefineConstant[ depth = 0 ];
+DefineConstant[ depth = 0, beyond = 0 ];
 a = 0.21132486540518713; b = 0.78867513459481287;
 Point(1) = {0, 0, 0}; Point(2) = {1, 0, 0}; Point(3) = {1, b, 0}; Point(4) = {0, a, 0};
-Point(5) = {0, a, 0}; Point(6) = {1, b, 0}; Point(7) = {1, 1.2, 0}; Point(8) = {0, 1.2, 0};
+Point(5) = {-beyond, a - beyond * (b - a), 0}; Point(6) = {1 + beyond, b + beyond * (b - a), 0}; Point(7) = {1 + beyond, 1.2, 0}; Point(8) = {-beyond, 1.2, 0};
 Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};
 Line(5) = {5, 6}; Line(6) = {6, 7}; Line(7) = {7, 8}; Line(8) = {8, 5};
 Transfinite Curve {1:4} = 4; Transfinite Curve {5:8} = 5;
