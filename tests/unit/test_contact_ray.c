@@ -190,16 +190,19 @@ static void CheckSeed(const Kind *kind, uint64_t seed, PetscInt first, PetscInt 
   PetscReal        *z, *softness, *closed, scale[3];
   uint64_t          signature;
   PetscInt          columns;
-  const PetscBool   closes  = (PetscBool)(seed % 2 == 0);
+  const PetscBool   closes = (PetscBool)(seed % 2 == 0), shares = (PetscBool)(seed % 3 == 0);
+  PetscBool        *shared;
   uint64_t          lengths = seed;
 
   MakePair(kind, &seed, &nonmortar, &mortar);
-  CHECK_CALL(PetscMalloc3(nonmortar.s.num_nodes, &z, nonmortar.s.num_nodes, &softness, nonmortar.s.num_nodes, &closed));
+  CHECK_CALL(PetscMalloc4(nonmortar.s.num_nodes, &z, nonmortar.s.num_nodes, &softness, nonmortar.s.num_nodes, &closed, nonmortar.s.num_nodes, &shared));
   for (int j = 0; j < nonmortar.s.num_nodes; j++) z[j] = Random(&seed);
   for (int j = 0; j < nonmortar.s.num_nodes; j++) softness[j] = 20 + 10 * Random(&seed); /* so that facets covered in part give as much as their gaps */
   CHECK_CALL(ContactPairCreate(kind->dim, kind->ring, &spec, &pair));
   for (int j = 0; j < nonmortar.s.num_nodes; j++) closed[j] = 0.1 * Random(&lengths);
+  for (int j = 0; j < nonmortar.s.num_nodes; j++) shared[j] = (PetscBool)(j % 2);
   if (closes) ContactPairSetClosed(pair, closed);
+  if (shares) ContactPairSetShared(pair, shared, PETSC_FALSE);
   if (!kind->hanging) ContactPairSetSoftness(pair, softness);
   SearchAll(pair, &nonmortar, &mortar, 0.5, 1e-3);
   SumCreate(&exact, &nonmortar, &mortar);
@@ -252,7 +255,7 @@ static void CheckSeed(const Kind *kind, uint64_t seed, PetscInt first, PetscInt 
   SumDestroy(&exact);
   PatchDestroy(&nonmortar);
   PatchDestroy(&mortar);
-  CHECK_CALL(PetscFree3(z, softness, closed));
+  CHECK_CALL(PetscFree4(z, softness, closed, shared));
   CHECK_CALL(ContactPairDestroy(&pair));
 }
 

@@ -267,10 +267,10 @@ static PetscErrorCode Compliance_Private(ContactPair pair, const ContactSurface 
     softness += multiplier->measure[first + r] * pair->softness[w->result.node[r]];
   }
   for (PetscInt r = 0; r < nr; r++) m[r] = multiplier->measure[first + r] * softness / sum;
+  if (shared) w->share.kappa[0] = ContactShareMost(w->facet.s.order), w->share.kappa[1] = w->share.kappa[2] = 0;
   out->num_rows   = nr;
   out->compliance = m;
-  out->kappa[0]   = shared ? ContactShareMost(w->facet.s.order) : w->share.kappa[0];
-  out->kappa[1]   = shared ? 0 : w->share.kappa[1];
+  for (int i = 0; i < 2; i++) out->kappa[i] = w->share.kappa[i];
   for (PetscInt r = 0; r < nr; r++) out->compliance_sum += m[r];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
