@@ -331,9 +331,50 @@ static void test_slide(void **state)
   }
 }
 
+/* Facets without multipliers, whose nodes supports hold, say nothing of slip. */
+static void test_held(void **state)
+{
+  const ContactSpec spec = {0};
+
+  (void)state;
+  for (PetscInt dim = 2; dim <= 3; dim++) {
+    PetscReal           traction[32] = {0};
+    PetscBool           carries[32]  = {PETSC_FALSE}, failed;
+    Patch               a, b;
+    ContactPair         pair;
+    ContactSurface      side[2];
+    ContactSlipPoint   *points;
+    const ContactFacet *facets;
+    PetscInt            num;
+
+    PatchCreate(&a, dim, 1, 2, 0, 1, (PetscBool)(dim == 3), PETSC_FALSE);
+    PatchCreate(&b, dim, 1, 3, -1, 2, (PetscBool)(dim == 2), PETSC_FALSE);
+    for (int k = 0; k < 2; k++) {
+      const Patch *p = k ? &b : &a;
+
+      for (PetscInt n = 0; n < p->s.num_nodes; n++)
+        for (PetscInt c = 0; c < dim - 1; c++) p->x[dim * n + c] = p->X[dim * n + c] = p->u[2 * n + c];
+      side[k] = p->s;
+    }
+    CHECK_CALL(ContactPairCreate(dim, PETSC_FALSE, &spec, &pair));
+    CHECK_CALL(ContactPairSetCarriers(pair, &a.s, carries));
+    ContactPairSetTraction(pair, traction);
+    SearchAll(pair, &a, &b, 0.5, 0.1);
+    CHECK_CALL(ContactPairKeepPoints(pair, &a.s, &b.s, &failed));
+    assert_false(failed);
+    CHECK_CALL(ContactPairSlip(pair, &a.s, &b.s, side, &num, &facets));
+    for (PetscInt i = 0; i < num; i++) assert_true(facets[i].num_rows > 0);
+    CHECK_CALL(ContactPairSlipPoints(pair, side, NULL, &num, &points));
+    for (PetscInt q = 0; q < num; q++) assert_true(points[q].weight > 0);
+    CHECK_CALL(PetscFree(points));
+    CHECK_CALL(ContactPairDestroy(&pair));
+    PatchDestroy(&a), PatchDestroy(&b);
+  }
+}
+
 int main(int argc, char **argv)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_derivatives), cmocka_unit_test(test_slide)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_derivatives), cmocka_unit_test(test_slide), cmocka_unit_test(test_held)};
   int                     failed;
 
   if (PetscInitialize(&argc, &argv, NULL, NULL)) return 1;

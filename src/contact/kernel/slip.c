@@ -254,7 +254,7 @@ PetscErrorCode ContactSlipFacet(const EvaluateContext *ctx, PetscInt facet, Pets
   PetscFunctionBegin;
   out->shear = NULL;
   if (!pair->traction && !pair->keeps) PetscFunctionReturn(PETSC_SUCCESS);
-  if (pair->keeps || (pair->slip && pair->slip->met && !pair->slip->met[facet])) PetscCall(Keep_Private(ctx, facet, out));
+  if (pair->ray->result.num_rows && (pair->keeps || (pair->slip && pair->slip->met && !pair->slip->met[facet]))) PetscCall(Keep_Private(ctx, facet, out));
   if (!pair->traction || !derivatives) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall((pair->dim == 3 ? ContactShear : ContactShearPlane)(ctx, out));
   PetscFunctionReturn(PETSC_SUCCESS);
