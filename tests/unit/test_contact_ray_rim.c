@@ -76,9 +76,57 @@ static void test_planes_at_an_angle(void **state)
       }
 }
 
+/* Facets that end in a plane of symmetry and have turned so far that they lie along it, seen by a rank that did not know those beyond its own and their
+   neighbours when it searched: the same normals and gaps, once it knows them, as where all was known. */
+static void test_known_later(void **state)
+{
+  const ContactSpec spec = {0};
+  const PetscInt   *start, *candidate, facet[9] = {0, 1, 2, 3, 4, 5, 6, 7, 8};
+  PetscBool         has[16];
+  PetscReal         known[48];
+  Patch             a, b;
+  ContactPair       pair[2];
+  ContactSurface    early;
+  Sum               sum[2];
+
+  PatchCreate(&a, 3, 1, 3, 0, 1, PETSC_TRUE, PETSC_FALSE);
+  PatchCreate(&b, 3, 1, 2, -1, 2, PETSC_FALSE, PETSC_FALSE);
+  for (PetscInt n = 0; n < a.s.num_nodes; n++) {
+    const PetscReal u = a.u[2 * n], v = a.u[2 * n + 1];
+
+    if (u == 0) a.mirror[6 * n] = 1;
+    for (int c = 0; c < 3; c++) a.x[3 * n + c] = a.X[3 * n + c] = c == 0 ? u : c == 1 ? v : 0.9 * u;
+    a.x[3 * n + 2] = 1.5 * u * (1 + 0.1 * v);
+    has[n]         = (PetscBool)(v < 0.5);
+    for (int c = 0; c < 3; c++) known[3 * n + c] = has[n] ? a.x[3 * n + c] : NAN;
+  }
+  for (PetscInt n = 0; n < b.s.num_nodes; n++)
+    for (int c = 0; c < 3; c++) b.x[3 * n + c] = b.X[3 * n + c] = c < 2 ? b.u[2 * n + c] : 2;
+  early   = a.s;
+  early.x = known, early.has = has;
+  for (int k = 0; k < 2; k++) {
+    CHECK_CALL(ContactPairCreate(3, PETSC_FALSE, &spec, &pair[k]));
+    SumCreate(&sum[k], &a, &b);
+  }
+  SearchAll(pair[0], &a, &b, 5, 0);
+  ContactPairGetCandidates(pair[0], &start, &candidate);
+  CHECK_CALL(ContactPairSearch(pair[1], &early, &b.s, 0, NULL, 5, 0));
+  CHECK_CALL(ContactPairSetCandidates(pair[1], &a.s, 9, facet, start, candidate));
+  for (int k = 0; k < 2; k++) SumSurfaces(&sum[k], pair[k], &a.s, &b.s, NULL, PETSC_FALSE, PETSC_FALSE);
+  assert_false(sum[0].failed || sum[1].failed);
+  for (PetscInt n = 0; n < 3 * a.s.num_nodes; n++) assert_near(ContactPairGetNormals(pair[1])[n], ContactPairGetNormals(pair[0])[n], 1e-15);
+  for (PetscInt n = 0; n < a.s.num_nodes; n++) assert_near(sum[1].gap[n], sum[0].gap[n], 1e-15);
+  assert_true(ContactPairGetNormals(pair[0])[0] < -0.7);
+  for (int k = 0; k < 2; k++) {
+    CHECK_CALL(ContactPairDestroy(&pair[k]));
+    SumDestroy(&sum[k]);
+  }
+  PatchDestroy(&a), PatchDestroy(&b);
+}
+
 int main(int argc, char **argv)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_planes_at_an_angle)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_known_later), cmocka_unit_test(test_planes_at_an_angle)};
   int                     failed;
 
   if (PetscInitialize(&argc, &argv, NULL, NULL)) return 1;

@@ -257,16 +257,23 @@ PetscBool ContactImageMakesEdge(const ContactSurface *s, PetscInt corner, const 
 }
 
 /* Has a facet no image in plane of symmetry k through one of its corners? It lies along the plane rather than meets it; or with friction makes an edge with the
-   image: tractions along both are not those along the mean. */
-static PetscBool HasNoImage_Private(const ContactSurface *s, PetscInt corner, int k, PetscBool friction)
+   image: tractions along both are not those along the mean. -1: its positions are not known here. */
+static int8_t HasNoImage_Private(const ContactSurface *s, PetscInt corner, int k, PetscBool friction)
 {
   const PetscInt   nv = 2 * (s->dim - 1), node = s->facets[corner];
   const PetscReal *mirror = s->mirror + (s->dim == 2 ? 2 * node : 6 * node + 3 * k), n[3] = {mirror[0], mirror[1], s->dim == 3 ? mirror[2] : 0};
   PetscReal        N[3];
 
-  if (Dot3(n, n) == 0) return PETSC_FALSE;
+  if (Dot3(n, n) == 0) return 0;
+  if (friction && ContactImageMakesEdge(s, corner, n)) return 1;
   ContactFacetVector(s->dim, s->x, s->facets + nv * (corner / nv), N);
-  return (PetscBool)(PetscAbsReal(Dot3(n, N)) > STEEP * PetscSqrtReal(Dot3(N, N)) || (friction && ContactImageMakesEdge(s, corner, n)));
+  return PetscIsNanReal(Dot3(N, N)) ? -1 : PetscAbsReal(Dot3(n, N)) > STEEP * PetscSqrtReal(Dot3(N, N));
+}
+
+void ContactDirectionImages(RayWork w, const ContactSurface *s, PetscBool friction)
+{
+  for (PetscInt k = 0; k < 4 * (s->dim - 1) * s->num_facets && s->mirror; k++)
+    if (w->along[k] < 0) w->along[k] = HasNoImage_Private(s, k / 2, (int)(k % 2), friction);
 }
 
 PetscErrorCode ContactDirectionTopology(RayWork w, const ContactSurface *s, PetscBool friction)
@@ -278,7 +285,7 @@ PetscErrorCode ContactDirectionTopology(RayWork w, const ContactSurface *s, Pets
   PetscCall(PetscFree7(w->ring_first, w->ring, w->sheet, w->end, w->parent, w->d, w->kept));
   PetscCall(PetscCalloc7(s->num_nodes + 2, &w->ring_first, num, &w->ring, num, &w->sheet, 2 * num, &w->end, 2 * s->num_nodes, &w->parent, 3 * num, &w->d, num,
                          &w->kept));
-  PetscCall(PetscCalloc1(2 * num, &w->along));
+  PetscCall(PetscMalloc1(2 * num, &w->along));
   for (PetscInt i = 0; i < num; i++) {
     PetscCheck(s->facets[i] >= 0 && s->facets[i] < s->num_nodes, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE,
                "nonmortar facet %" PetscInt_FMT " has node %" PetscInt_FMT ", must lie in [0, %" PetscInt_FMT ")", i / nv, s->facets[i], s->num_nodes);
@@ -287,7 +294,8 @@ PetscErrorCode ContactDirectionTopology(RayWork w, const ContactSurface *s, Pets
   for (PetscInt i = 2; i < s->num_nodes + 2; i++) w->ring_first[i] += w->ring_first[i - 1];
   for (PetscInt i = 0; i < num; i++) w->ring[w->ring_first[s->facets[i] + 1]++] = i;
   for (PetscInt k = 0; k < num && s->dim == 3 && s->mirror; k++) w->kept[k] = IsKept_Private(s, s->facets[k], s->facets[4 * (k / 4) + (k + 1) % 4]);
-  for (PetscInt k = 0; k < 2 * num && s->mirror; k++) w->along[k] = HasNoImage_Private(s, k / 2, (int)(k % 2), friction);
+  for (PetscInt k = 0; k < 2 * num; k++) w->along[k] = -1;
+  ContactDirectionImages(w, s, friction);
   PetscCall(ContactParents(s, w->parent, NULL));
   PetscCall(Sheets_Private(w, s));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -304,7 +312,7 @@ static void Images_Private(RayWork w, const ContactSurface *s, PetscInt corner, 
 
   for (int k = 0; s->mirror && k < (s->dim == 2 ? 1 : 2); k++) {
     for (PetscInt c = 0; c < s->dim; c++) n[num][c] = s->dim == 2 ? s->mirror[2 * node + c] : s->mirror[6 * node + 3 * k + c];
-    if (Dot3(n[num], n[num]) > 0 && !w->along[2 * corner + k]) num++;
+    if (Dot3(n[num], n[num]) > 0 && w->along[2 * corner + k] < 1) num++;
   }
   if (num == 2) {
     Cross3(n[0], n[1], l);

@@ -427,6 +427,7 @@ PetscErrorCode ContactRayEvaluate(const EvaluateContext *ctx, PetscBool *failed)
 
   PetscFunctionBegin;
   if (!ctx->again) {
+    ContactDirectionImages(w, ctx->nonmortar, ctx->pair->friction);
     ContactDirections(w, ctx->nonmortar);
     Normals_Private(ctx->pair, ctx->nonmortar);
     if (ctx->pair->dim == 3 && (ctx->pair->traction || ctx->pair->keeps)) PetscCall(ContactFrames(ctx->pair, ctx->nonmortar));

@@ -146,7 +146,7 @@ struct _p_RayWork {
   PetscInt  *sheet;             /* [corners] those of one node with the same sheet have one direction (direction.c) */
   PetscInt  *parent;            /* [num_nodes][2] ends of the edge on which a node hangs, -1 */
   PetscInt  *end;               /* [corners][2] corners at these ends whose directions count, -1: the node does not hang */
-  PetscBool *along;             /* [corners][2] does the facet lie along this plane of symmetry, as it was at the search? */
+  int8_t    *along;             /* [corners][2] does the facet lie along this plane of symmetry, as it was at the search? -1: not known here yet */
   PetscReal *d;                 /* [corners][3] directions */
   PetscBool *kept;              /* [num_facets][4] does the side from corner k on lie in a plane of symmetry? (space) */
   PetscInt  *mortar_parent;     /* [mortar num_nodes][2] of nodes that hang on straight sides */
@@ -202,8 +202,10 @@ FacetJoint ContactFacetJoint(const ContactSurface *, PetscInt a, PetscInt b);
 /* parent[num_nodes][2]: ends of the edge in whose middle a corner hangs, -1. middle[num_facets][4] (or NULL): the corner that hangs on a side, -1. */
 PetscErrorCode ContactParents(const ContactSurface *, PetscInt parent[], PetscInt middle[]);
 PetscErrorCode ContactDirectionTopology(RayWork, const ContactSurface *, PetscBool friction);
-void           ContactDirections(RayWork, const ContactSurface *);
-PetscBool      ContactDirectionUsable(RayWork, const ContactSurface *, PetscInt corner);
+/* Which images count: asked at the search, of facets that are not known here then at the next evaluation, which is at its positions: all ranks agree. */
+void      ContactDirectionImages(RayWork, const ContactSurface *, PetscBool friction);
+void      ContactDirections(RayWork, const ContactSurface *);
+PetscBool ContactDirectionUsable(RayWork, const ContactSurface *, PetscInt corner);
 typedef struct {
   PetscInt  facet;
   PetscReal R[9]; /* weight times images in planes of symmetry */
