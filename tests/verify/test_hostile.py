@@ -202,6 +202,15 @@ def test_what_no_support_holds(run, tmp_path, boundary, words):
         assert result.returncode == 0, result
 
 
+@pytest.mark.parametrize("load", [{"traction": {"y": -0.01}}, {"pressure": 0.01}])
+def test_loads_between_cells(run, tmp_path, load):
+    """On the line where two bodies hang together: a traction would act on the cells of both."""
+    text = block(tmp_path, body={"l": {"material": "m"}, "u": {"material": "m"}}, boundary={"y0": {"fix": "xy"}, "joint": load})
+    write(tmp_path / "block.msh", [linspace(0, 1, 2)] * 2, [lambda x, y: (x, y), lambda x, y: (x, 1 + y)], body=lambda centre, b: "lu"[b],
+          side=lambda name, centre, b: {("y1", 0): "joint", ("y0", 1): None}.get((name, b), name))
+    refused(run("s.yml", "-check", text=text), "boundary.joint", "between two cells")
+
+
 def test_a_rigid_body_and_its_support(run, tmp_path):
     die = {"body": {"body": {"material": "steel", "motion": {"y": -0.1}}}, "material": {"steel": {"law": "rigid"}}}
     refused(run("s.yml", "-check", text=block(tmp_path, **die, **held())), "body.body.motion and boundary.y0", "in y: -0.05 and 0")
