@@ -168,7 +168,8 @@ static PetscErrorCode MatchBoundaries_Private(Scene s, const Facets *f)
     PetscCheckInput(!BoundaryHasPressure(&b->spec) || !f->inner[b->spec.group], "%s.%s: a facet of this group lies between two cells and has no outward normal",
                     NodeWhere(b->node), BoundaryPressureKey(&b->spec));
     PetscCheckInput(!BoundaryHasTraction(&b->spec) || !f->inner[b->spec.group],
-                    "%s.traction: a facet of this group lies between two cells, of which each would bear the load; allowed: faces of bodies", NodeWhere(b->node));
+                    "%s.traction: a facet of this group lies between two cells, of which each would bear the load; allowed: faces of bodies",
+                    NodeWhere(b->node));
     for (PetscInt body = 0; body < f->mesh->num_bodies; ++body) {
       const PetscBool rigid = s->data.bodies[body].material->law->rigid;
       if (!rigid || !f->body_touches[body * f->mesh->num_boundaries + b->spec.group]) continue;
