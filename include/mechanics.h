@@ -104,7 +104,7 @@ typedef struct {
   int8_t  *fixed;
   PetscInt num_frames, *frame_node;
   PetscReal (*frame)[9];
-  int8_t *cause;          /* [num_nodes][3] boundary index that prescribes this component, -1 none, -2 - body rigid body */
+  PetscInt *rigid;        /* [num_nodes] rigid body that prescribes all components, -1: none does */
   PetscReal (*normal)[3]; /* [num_boundaries] of those fixed along their normal */
 } Supports;
 

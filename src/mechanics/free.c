@@ -132,8 +132,8 @@ static PetscErrorCode Gram_Private(Mechanics m, const PetscInt root[], const Pet
   for (PetscInt n = 0; n < v->num_nodes; ++n) {
     const PetscReal *frame;
     if (body[n] < 0 || !m->supports->fixed[n]) continue;
-    const PetscInt cause = m->supports->cause[3 * n];
-    if (cause < -1 && BodyIsLoaded(&m->spec->bodies[-2 - cause])) continue;
+    const PetscInt rigid = m->supports->rigid[n];
+    if (rigid >= 0 && BodyIsLoaded(&m->spec->bodies[rigid])) continue;
     PetscCall(HPSpaceGetFrame(m->space, n, &frame));
     for (PetscInt k = 0; k < m->dim; ++k) {
       PetscReal a[MOST_MODES], direction[3] = {0, 0, 0};

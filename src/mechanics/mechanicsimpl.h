@@ -89,21 +89,24 @@ PetscErrorCode FacetPressure(PetscInt dim, Model, PetscInt order, const PetscRea
 
 /* ---- supports of a node (prescribe.c) ------------------------------------------------------------------------------------- */
 
-/* Directions prescribed at one node so far: orthonormal, displacements along them, and who asked for each (an index of a boundary, -2 - body of a rigid body).
-   What adds no direction must agree with those before: the pair that disagrees the most, the direction of the later one, what the earlier ones give along it
-   and what it asks. */
+/* Directions prescribed at one node so far: orthonormal, displacements along them, who asked for each (an index of a boundary, -2 - body of a rigid body) and
+   for which, of which the earlier ones were taken off. What adds no direction must agree with those before: the pair that disagrees the most, the direction of
+   the later one, what the earlier ones give along it and what it asks. */
 typedef struct {
   PetscInt  num;
-  PetscReal direction[3][3], value[3];
-  int8_t    cause[3], rivals[2];
+  PetscReal direction[3][3], value[3], wish[3][3];
+  PetscInt  cause[3], rivals[2];
   PetscReal along[3], given, asked;
 } NodeSupport;
 
 /* Someone asks for a displacement along a unit direction. */
-void MechanicsAsk_Private(PetscInt dim, const PetscReal direction[3], PetscReal value, int8_t cause, NodeSupport *);
+void MechanicsAsk_Private(PetscInt dim, const PetscReal direction[3], PetscReal value, PetscInt cause, NodeSupport *);
 /* All that boundaries ask at a node; time NULL: 0 along each direction. normal[num_boundaries] of Supports. */
 PetscErrorCode MechanicsNodeSupport_Private(const MechanicsSpec *, const PetscReal normal[][3], const HPTables *, const ForestTables *, PetscInt node,
                                             const PetscReal *time, NodeSupport *);
+/* support.c. The forces r (local array) of node n, Cartesian, by who holds it: force[k] of the k-th in NodeSupport, along what it asked for, for no support
+   bears what it does not hold; of a rigid body all of it. */
+PetscErrorCode MechanicsNodeForces_Private(Mechanics, PetscInt n, const PetscReal r[], NodeSupport *, PetscReal force[3][3]);
 
 /* ---- the bulk of one mesh ------------------------------------------------------------------------------------------------ */
 

@@ -2,17 +2,6 @@
    exactly what the virtual work of a rigid rotation gives, and balance those of all other forces to round-off. */
 #include "mechanicsimpl.h"
 
-/* Component c of the forces r of node n as a vector. */
-static PetscErrorCode Force_Private(Mechanics m, PetscInt n, PetscInt c, const PetscReal r[], PetscReal f[3])
-{
-  const PetscReal *frame;
-
-  PetscFunctionBegin;
-  PetscCall(HPSpaceGetFrame(m->space, n, &frame));
-  for (PetscInt a = 0; a < 3; ++a) f[a] = a < m->dim ? (frame ? frame[3 * c + a] : (PetscReal)(a == c)) * r[n * m->dim + c] : 0;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* Position of node n. */
 static PetscErrorCode Place_Private(Mechanics m, const HPTables *v, PetscInt n, const PetscReal u[], PetscReal x[3])
 {
@@ -62,17 +51,19 @@ PetscErrorCode MechanicsMoments(Mechanics m, const PetscReal r[], const PetscRea
   for (PetscInt b = 0; b < m->spec->num_boundaries; ++b) support[b][0] = support[b][1] = support[b][2] = 0;
   PetscCall(PetscArrayzero(body, m->spec->num_bodies));
   for (PetscInt n = 0; n < v->num_nodes; ++n) {
-    PetscReal x[3], f[3];
+    NodeSupport s;
+    PetscReal   x[3], f[3][3];
     if (!m->supports->fixed[n]) continue;
     PetscCall(Place_Private(m, v, n, u, x));
-    for (PetscInt c = 0; c < m->dim; ++c) {
-      const PetscInt cause = m->supports->cause[3 * n + c];
-      if (!((m->supports->fixed[n] >> c) & 1)) continue;
-      PetscCall(Force_Private(m, n, c, r, f));
-      if (cause >= 0) Add_Private(x, m->spec->boundaries[cause].about, f, 1, support[cause]);
-      if (cause > -2) continue;
-      for (PetscInt a = 0; a < 3; ++a) body[-2 - cause].force[a] -= f[a];
-      Add_Private(x, point[-2 - cause], f, -1, body[-2 - cause].moment);
+    PetscCall(MechanicsNodeForces_Private(m, n, r, &s, f));
+    for (PetscInt k = 0; k < s.num; ++k) {
+      const PetscInt cause = s.cause[k], of = -2 - cause;
+      if (cause >= 0)
+        Add_Private(x, m->spec->boundaries[cause].about, f[k], 1, support[cause]);
+      else {
+        for (PetscInt a = 0; a < 3; ++a) body[of].force[a] -= f[k][a];
+        Add_Private(x, point[of], f[k], -1, body[of].moment);
+      }
     }
   }
   PetscCall(PetscFree(point));

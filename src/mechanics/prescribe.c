@@ -105,7 +105,7 @@ PetscErrorCode MechanicsBodyRotation(Mechanics m, PetscInt body, PetscReal rotat
 
 /* ---- one node --------------------------------------------------------------------------------------------------------------------- */
 
-void MechanicsAsk_Private(PetscInt dim, const PetscReal direction[3], PetscReal value, int8_t cause, NodeSupport *s)
+void MechanicsAsk_Private(PetscInt dim, const PetscReal direction[3], PetscReal value, PetscInt cause, NodeSupport *s)
 {
   PetscReal v[3] = {direction[0], direction[1], direction[2]}, rest = value, most = 0;
   PetscInt  with = 0;
@@ -128,7 +128,10 @@ void MechanicsAsk_Private(PetscInt dim, const PetscReal direction[3], PetscReal 
     }
     return;
   }
-  for (PetscInt c = 0; c < 3; ++c) s->direction[s->num][c] = v[c] / length;
+  for (PetscInt c = 0; c < 3; ++c) {
+    s->direction[s->num][c] = v[c] / length;
+    s->wish[s->num][c]      = direction[c];
+  }
   s->value[s->num]   = rest / length;
   s->cause[s->num++] = cause;
 }
@@ -149,21 +152,24 @@ PetscErrorCode MechanicsNodeSupport_Private(const MechanicsSpec *spec, const Pet
     for (PetscInt c = 0; c < v->dim; ++c) {
       PetscReal unit[3] = {0, 0, 0};
       unit[c]           = 1;
-      if (b->fix[c] || b->displacement[c] || b->rotation) MechanicsAsk_Private(v->dim, unit, u[c], (int8_t)i, s);
+      if (b->fix[c] || b->displacement[c] || b->rotation) MechanicsAsk_Private(v->dim, unit, u[c], i, s);
     }
-    if (b->fix_normal) MechanicsAsk_Private(v->dim, normal[i], 0, (int8_t)i, s);
+    if (b->fix_normal) MechanicsAsk_Private(v->dim, normal[i], 0, i, s);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The prescribed components of a node in its frame: what boundaries ask along directions that are not at right angles has to be met by all of them together. */
-static PetscErrorCode FrameValues_Private(Mechanics m, const HPTables *v, const ForestTables *t, PetscInt node, PetscReal local[])
+/* The displacement of a node as far as boundaries prescribe it, else 0: what they ask along directions that are not at right angles has to be met by all of
+   them together. */
+static PetscErrorCode NodeValue_Private(Mechanics m, const HPTables *v, const ForestTables *t, PetscInt node, PetscReal u[3])
 {
   NodeSupport s = {0};
 
   PetscFunctionBegin;
   PetscCall(MechanicsNodeSupport_Private(m->spec, (const PetscReal(*)[3])m->supports->normal, v, t, node, &m->t, &s));
-  for (PetscInt k = 0; k < s.num; ++k) local[k] = m->t == 0 ? 0 : s.value[k];
+  u[0] = u[1] = u[2] = 0;
+  for (PetscInt k = 0; k < s.num; ++k)
+    for (PetscInt c = 0; c < 3; ++c) u[c] += s.value[k] * s.direction[k][c];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -175,23 +181,18 @@ PetscErrorCode MechanicsPrescribe(Mechanics m, PetscReal local[])
 
   PetscFunctionBegin;
   for (PetscInt n = 0; n < v->num_nodes; ++n) {
+    const PetscInt   rigid = m->supports->rigid[n];
     const PetscReal *frame;
+    PetscReal        u[3];
     if (!m->supports->fixed[n]) continue;
     PetscCall(HPSpaceGetFrame(m->space, n, &frame));
-    if (frame && m->supports->cause[3 * n] > -2) {
-      PetscCall(FrameValues_Private(m, v, t, n, local + n * m->dim));
-      continue;
-    }
+    if (rigid >= 0)
+      PetscCall(BodyMotion_Private(&m->spec->bodies[rigid], m->dim, v->X + 3 * n, m->t, u));
+    else
+      PetscCall(NodeValue_Private(m, v, t, n, u));
     for (PetscInt c = 0; c < m->dim; ++c) {
-      const PetscInt cause = m->supports->cause[3 * n + c];
-      PetscReal      u[3]  = {0, 0, 0};
       if (!((m->supports->fixed[n] >> c) & 1)) continue;
-      if (cause <= -2)
-        PetscCall(BodyMotion_Private(&m->spec->bodies[-2 - cause], m->dim, v->X + 3 * n, m->t, u));
-      else
-        PetscCall(BoundaryValue_Private(&m->spec->boundaries[cause], m->dim, v->X + 3 * n, m->t, u));
-      if (frame) u[c] = Dot3(frame + 3 * c, u);
-      local[n * m->dim + c] = m->t == 0 ? 0 : u[c]; /* at rest; asked all the same, for values that are not finite */
+      local[n * m->dim + c] = m->t == 0 ? 0 : frame ? Dot3(frame + 3 * c, u) : u[c]; /* at rest; asked all the same, for values that are not finite */
     }
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -237,15 +238,15 @@ PetscErrorCode MechanicsFindConflict(Mechanics m, PetscReal time, size_t size, c
   ForestCoarseBox(mesh, lo, hi);
   for (PetscInt c = 0; c < m->dim; ++c) extent = PetscMax(extent, hi[c] - lo[c]);
   for (PetscInt n = 0; n < v->num_nodes && !words[0]; ++n) {
-    const PetscInt cause = m->supports->cause[3 * n];
+    const PetscInt rigid = m->supports->rigid[n];
     NodeSupport    s     = {0};
     PetscReal      u[3];
     if (!m->supports->fixed[n]) continue;
-    if (cause <= -2) PetscCall(BodyMotion_Private(&m->spec->bodies[-2 - cause], m->dim, v->X + 3 * n, time, u));
-    for (PetscInt c = 0; c < m->dim && cause <= -2; ++c) {
+    if (rigid >= 0) PetscCall(BodyMotion_Private(&m->spec->bodies[rigid], m->dim, v->X + 3 * n, time, u));
+    for (PetscInt c = 0; c < m->dim && rigid >= 0; ++c) {
       PetscReal unit[3] = {0, 0, 0};
       unit[c]           = 1;
-      MechanicsAsk_Private(m->dim, unit, u[c], (int8_t)cause, &s);
+      MechanicsAsk_Private(m->dim, unit, u[c], -2 - rigid, &s);
     }
     PetscCall(MechanicsNodeSupport_Private(m->spec, (const PetscReal(*)[3])m->supports->normal, v, t, n, &time, &s));
     if (PetscAbsReal(s.asked - s.given) > PetscMax(NOISE * extent, DISAGREE * PetscMax(PetscAbsReal(s.asked), PetscAbsReal(s.given))))

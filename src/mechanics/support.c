@@ -80,7 +80,6 @@ static void NodeResult_Private(PetscInt dim, PetscInt node, NodeSupport *s, Supp
     if (aligned)
       for (c = 0; PetscAbsReal(s->direction[k][c]) < 0.5;) ++c;
     out->fixed[node] |= (int8_t)(1 << c);
-    out->cause[3 * node + c] = s->cause[k];
   }
   if (aligned) return;
   const PetscInt given = s->num;
@@ -106,7 +105,7 @@ static PetscErrorCode RigidNodes_Private(const HPTables *v, const ForestTables *
     for (PetscInt k = v->cell_row[c]; k < v->cell_row[c + 1]; ++k) {
       const PetscInt n = v->cell_master[k];
       out->fixed[n]    = (int8_t)((1 << v->dim) - 1);
-      for (PetscInt a = 0; a < v->dim; ++a) out->cause[3 * n + a] = (int8_t)(-2 - body);
+      out->rigid[n]    = body;
     }
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -121,10 +120,10 @@ PetscErrorCode MechanicsSupportsCreate(HPSpace space, const MechanicsSpec *spec,
   PetscFunctionBegin;
   PetscCall(PetscMemzero(out, sizeof(*out)));
   PetscCall(PetscCalloc1(v->num_nodes, &out->fixed));
-  PetscCall(PetscMalloc1(3 * v->num_nodes, &out->cause));
+  PetscCall(PetscMalloc1(v->num_nodes, &out->rigid));
   PetscCall(PetscMalloc2(v->num_nodes, &out->frame_node, v->num_nodes, &out->frame));
   PetscCall(PetscCalloc1(spec->num_boundaries, &out->normal));
-  for (PetscInt i = 0; i < 3 * v->num_nodes; ++i) out->cause[i] = -1;
+  for (PetscInt n = 0; n < v->num_nodes; ++n) out->rigid[n] = -1;
   for (PetscInt b = 0; b < spec->num_boundaries; ++b) {
     if (spec->boundaries[b].fix_normal) PetscCall(GroupNormal_Private(space, &spec->boundaries[b], out->normal[b]));
   }
@@ -141,9 +140,39 @@ PetscErrorCode MechanicsSupportsDestroy(Supports *s)
 {
   PetscFunctionBegin;
   PetscCall(PetscFree(s->fixed));
-  PetscCall(PetscFree(s->cause));
+  PetscCall(PetscFree(s->rigid));
   PetscCall(PetscFree2(s->frame_node, s->frame));
   PetscCall(PetscFree(s->normal));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode MechanicsNodeForces_Private(Mechanics m, PetscInt n, const PetscReal r[], NodeSupport *s, PetscReal force[3][3])
+{
+  const HPTables     *v      = HPSpaceGetTables(m->space);
+  const Forest        forest = HPSpaceGetForest(m->space);
+  const ForestTables *t      = ForestGetTables(forest);
+  const PetscReal    *frame;
+  PetscReal           rest[3] = {0, 0, 0};
+
+  PetscFunctionBegin;
+  *s = (NodeSupport){0};
+  PetscCall(HPSpaceGetFrame(m->space, n, &frame));
+  for (PetscInt c = 0; c < m->dim; ++c)
+    for (PetscInt a = 0; a < m->dim; ++a) rest[a] += (frame ? frame[3 * c + a] : (PetscReal)(a == c)) * r[n * m->dim + c];
+  if (m->supports->rigid[n] >= 0) {
+    s->num      = 1;
+    s->cause[0] = -2 - m->supports->rigid[n];
+    PetscCall(PetscArraycpy(force[0], rest, 3));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  PetscCall(MechanicsNodeSupport_Private(m->spec, (const PetscReal(*)[3])m->supports->normal, v, t, n, NULL, s));
+  for (PetscInt k = s->num - 1; k >= 0; --k) { /* the last alone bears what lies along the last direction */
+    const PetscReal size = Dot3(rest, s->direction[k]) / Dot3(s->wish[k], s->direction[k]);
+    for (PetscInt a = 0; a < 3; ++a) {
+      force[k][a] = size * s->wish[k][a];
+      rest[a] -= force[k][a];
+    }
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -154,14 +183,12 @@ PetscErrorCode MechanicsReactions(Mechanics m, const PetscReal r[], PetscReal re
   PetscFunctionBegin;
   for (PetscInt b = 0; b < m->spec->num_boundaries; ++b) reaction[b][0] = reaction[b][1] = reaction[b][2] = 0;
   for (PetscInt n = 0; n < v->num_nodes; ++n) {
-    const PetscReal *frame;
+    NodeSupport s;
+    PetscReal   force[3][3];
     if (!m->supports->fixed[n]) continue;
-    PetscCall(HPSpaceGetFrame(m->space, n, &frame));
-    for (PetscInt c = 0; c < m->dim; ++c) {
-      const PetscInt cause = m->supports->cause[3 * n + c];
-      if (!((m->supports->fixed[n] >> c) & 1) || cause < 0) continue;
-      for (PetscInt a = 0; a < m->dim; ++a) reaction[cause][a] += (frame ? frame[3 * c + a] : (PetscReal)(a == c)) * r[n * m->dim + c];
-    }
+    PetscCall(MechanicsNodeForces_Private(m, n, r, &s, force));
+    for (PetscInt k = 0; k < s.num && s.cause[0] >= 0; ++k)
+      for (PetscInt a = 0; a < 3; ++a) reaction[s.cause[k]][a] += force[k][a];
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -74,6 +74,11 @@ static PetscBool Partners_Private(Mirror *m, PetscInt num_groups)
   return PETSC_TRUE;
 }
 
+static PetscReal Time_Private(PetscInt k, PetscReal end)
+{
+  return k ? end : 0.37 * end; /* a load that has been and gone is 0 at the end */
+}
+
 /* sign f(X, t) = g(image of X, t), or both are missing? At the facets of a group, at two times. */
 static PetscErrorCode Same_Private(const Mirror *m, const BoundarySpec *a, const BoundarySpec *b, Expression f, Expression g, PetscReal sign, PetscReal end,
                                    PetscBool *same)
@@ -83,7 +88,7 @@ static PetscErrorCode Same_Private(const Mirror *m, const BoundarySpec *a, const
   for (PetscInt i = 0; i < m->num && *same && f; ++i) {
     if (m->place[i].body >= 0 || !(m->place[i].groups >> a->group & 1)) continue;
     for (PetscInt k = 0; k < 2; ++k) {
-      const PetscReal t = k ? end : 0.37 * end;
+      const PetscReal t = Time_Private(k, end);
       PetscReal       value[2];
       PetscCall(MechanicsValue(f, &a->amplitude, m->place[i].X, t, &value[0]));
       PetscCall(MechanicsValue(g, &b->amplitude, m->place[m->image[i]].X, t, &value[1]));
@@ -124,14 +129,16 @@ static PetscErrorCode Bodies_Private(const Mirror *m, const SceneData *data, Pet
 
   PetscFunctionBegin;
   for (PetscInt b = 0; b < data->mechanics.num_bodies; ++b) {
-    const BodySpec *s        = &data->mechanics.bodies[b];
-    PetscReal       value[2] = {0, 0};
+    const BodySpec *s = &data->mechanics.bodies[b];
     if (BodyIsLoaded(s) || s->rotation_angle || s->material->num_fibers) *same = PETSC_FALSE;
     for (PetscInt c = 0; c < 3; ++c)
       if (s->force[c] && ExpressionUsesPlace(s->force[c])) *same = PETSC_FALSE;
-    if (s->motion[m->axis]) PetscCall(MechanicsValue(s->motion[m->axis], &s->amplitude, origin, data->load.end, &value[0]));
-    if (s->force[m->axis]) PetscCall(MechanicsValue(s->force[m->axis], &s->amplitude, origin, data->load.end, &value[1]));
-    if (value[0] != 0 || value[1] != 0) *same = PETSC_FALSE;
+    for (PetscInt k = 0; k < 4; ++k) {
+      const Expression across = k / 2 ? s->force[m->axis] : s->motion[m->axis];
+      PetscReal        value  = 0;
+      if (across) PetscCall(MechanicsValue(across, &s->amplitude, origin, Time_Private(k % 2, data->load.end), &value));
+      if (value != 0) *same = PETSC_FALSE;
+    }
   }
   for (PetscInt i = 0; i < data->num_contacts; ++i)
     if (m->partner[data->contacts[i].nonmortar] != (uint64_t)data->contacts[i].nonmortar ||

@@ -39,7 +39,7 @@ PetscErrorCode RigidCreate_Private(Problem p)
   for (PetscInt n = 0; n < v->num_nodes; ++n) {
     p->node_link[n] = -1;
     for (PetscInt l = 0; l < p->num_links; ++l)
-      if (p->supports.cause[3 * n] == -2 - p->links[l].body) p->node_link[n] = (int8_t)l;
+      if (p->supports.rigid[n] == p->links[l].body) p->node_link[n] = (int8_t)l;
   }
   for (PetscInt l = 0; l < p->num_links; ++l) p->links[l].length = p->extent;
   PetscFunctionReturn(PETSC_SUCCESS);

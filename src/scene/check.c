@@ -167,6 +167,9 @@ static PetscErrorCode MatchBoundaries_Private(Scene s, const Facets *f)
                     b->spec.name);
     PetscCheckInput(!BoundaryHasPressure(&b->spec) || !f->inner[b->spec.group], "%s.%s: a facet of this group lies between two cells and has no outward normal",
                     NodeWhere(b->node), BoundaryPressureKey(&b->spec));
+    PetscCheckInput(!BoundaryHasTraction(&b->spec) || !f->inner[b->spec.group],
+                    "%s.traction: a facet of this group lies between two cells, of which each would bear the load; allowed: faces of bodies",
+                    NodeWhere(b->node));
     for (PetscInt body = 0; body < f->mesh->num_bodies; ++body) {
       const PetscBool rigid = s->data.bodies[body].material->law->rigid;
       if (!rigid || !f->body_touches[body * f->mesh->num_boundaries + b->spec.group]) continue;
@@ -450,16 +453,32 @@ static PetscErrorCode CheckStiffness_Private(Scene s, PetscInt num)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* A body that has a vertex of this one, if only one that it is hinged to, -1: none. */
+static PetscErrorCode Sharing_Private(const CoarseMesh *m, PetscInt body, PetscInt *other)
+{
+  PetscBool *mine;
+
+  PetscFunctionBegin;
+  *other = -1;
+  PetscCall(PetscCalloc1(m->num_vertices, &mine));
+  for (PetscInt i = 0; i < m->num_cells << m->dim; ++i)
+    if (m->cell_body[i >> m->dim] == body) mine[m->cell_vertices[i]] = PETSC_TRUE;
+  for (PetscInt i = 0; i < m->num_cells << m->dim && *other < 0; ++i)
+    if (m->cell_body[i >> m->dim] != body && mine[m->cell_vertices[i]]) *other = m->cell_body[i >> m->dim];
+  PetscCall(PetscFree(mine));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* A rigid body that forces move: contact alone meets it. */
 static PetscErrorCode CheckLoaded_Private(Scene s, const Facets *f)
 {
-  const ForestTables *t  = f->forest;
-  const PetscInt      nb = f->mesh->num_boundaries;
+  const PetscInt nb = f->mesh->num_boundaries;
 
   PetscFunctionBegin;
   for (PetscInt body = 0; body < f->mesh->num_bodies; ++body) {
     const BodySpec *b   = &s->data.bodies[body];
     PetscBool       any = PETSC_FALSE;
+    PetscInt        other;
     if (!BodyIsLoaded(b)) continue;
     for (PetscInt i = 0; i < s->num_boundaries; ++i)
       PetscCheckInput(!f->body_touches[body * nb + s->data.boundaries[i].group] || !BoundarySupports(&s->data.boundaries[i]),
@@ -467,12 +486,9 @@ static PetscErrorCode CheckLoaded_Private(Scene s, const Facets *f)
     for (PetscInt i = 0; i < s->data.num_contacts; ++i)
       any = (PetscBool)(any || f->body_touches[body * nb + s->data.contacts[i].nonmortar] || f->body_touches[body * nb + s->data.contacts[i].mortar]);
     PetscCheckInput(any, "body.%s.load: the body is in no contact pair, so that nothing bears its load", b->name);
-    for (PetscInt e = 0; e < t->first[t->dim] - t->first[t->dim - 1]; ++e) {
-      const PetscInt *leaf = t->facet_leaf + 2 * e;
-      if (leaf[0] < 0 || leaf[1] < 0 || (t->leaf_body[leaf[0]] == body) == (t->leaf_body[leaf[1]] == body)) continue;
-      PetscCall(ErrorInput("body.%s.load: the body is joined to body '%s'; a rigid body with a load must touch others by contact alone", b->name,
-                           f->mesh->body_name[t->leaf_body[leaf[t->leaf_body[leaf[0]] == body ? 1 : 0]]]));
-    }
+    PetscCall(Sharing_Private(f->mesh, body, &other));
+    PetscCheckInput(other < 0, "body.%s.load: the body is joined to body '%s'; a rigid body with a load must touch others by contact alone", b->name,
+                    f->mesh->body_name[other]);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -202,18 +202,43 @@ def test_what_no_support_holds(run, tmp_path, boundary, words):
         assert result.returncode == 0, result
 
 
+@pytest.mark.parametrize("load", [{"traction": {"y": -0.01}}, {"pressure": 0.01}])
+def test_loads_between_cells(run, tmp_path, load):
+    """On the line where two bodies hang together: a traction would act on the cells of both."""
+    text = block(tmp_path, body={"l": {"material": "m"}, "u": {"material": "m"}}, boundary={"y0": {"fix": "xy"}, "joint": load})
+    write(tmp_path / "block.msh", [linspace(0, 1, 2)] * 2, [lambda x, y: (x, y), lambda x, y: (x, 1 + y)], body=lambda centre, b: "lu"[b],
+          side=lambda name, centre, b: {("y1", 0): "joint", ("y0", 1): None}.get((name, b), name))
+    refused(run("s.yml", "-check", text=text), "boundary.joint", "between two cells")
+
+
 def test_a_rigid_body_and_its_support(run, tmp_path):
     die = {"body": {"body": {"material": "steel", "motion": {"y": -0.1}}}, "material": {"steel": {"law": "rigid"}}}
     refused(run("s.yml", "-check", text=block(tmp_path, **die, **held())), "body.body.motion and boundary.y0", "in y: -0.05 and 0")
 
 
-def test_supports_at_an_angle(run, tmp_path):
-    """A floor that rises at 45 degrees, along which a side is pushed by 0.1 in x: the block moves by (0.1, 0.1) as a whole, the corner that both hold too."""
-    text = block(tmp_path, boundary={"y0": {"fix": "normal"}, "x0": {"displacement": {"x": 0.1}}}, probe={"corner": {"x": 0, "y": 0}})
+@pytest.mark.parametrize("first", ["floor", "side"])
+def test_supports_at_an_angle(run, tmp_path, first):
+    """A floor that rises at 45 degrees, along which a side is pushed by 0.1 in x: the block moves by (0.1, 0.1) as a whole, the corner that both hold too. And with its
+    weight on the floor and at the side: each bears along its normal alone, also at that corner, whichever comes first in the scene."""
+    def supports(side):
+        return dict([("y0", {"fix": "normal"}), ("x0", side)][::1 if first == "floor" else -1])
+
+    text = block(tmp_path, boundary=supports({"displacement": {"x": 0.1}}), probe={"corner": {"x": 0, "y": 0}})
     write(tmp_path / "block.msh", [linspace(0, 1, 2)] * 2, lambda x, y: (x, y + x))
     result = run("s.yml", text=text)
     assert result.returncode == 0, result
     assert result.summary["probe"]["corner"]["displacement"] == pytest.approx([0.1, 0.1], abs=1e-9) and result.summary["energy"] < 1e-15, result
+    reaction = run("s.yml", text=json.dumps(json.loads(text) | {"boundary": supports({"fix": "x"}), "body": {"body": {"material": "m", "force": {"y": -0.01}}}})).summary["reaction"]
+    assert reaction["y0"] == pytest.approx([-0.01, 0.01], rel=1e-9) and reaction["x0"] == pytest.approx([0.01, 0], abs=1e-11), reaction
+
+
+def test_more_bodies_than_a_byte_counts(run, tmp_path):
+    """The last of 144 is rigid, and told as what holds its corner."""
+    text = block(tmp_path, body={f"b{i}": {"material": "steel" if i == 143 else "m"} for i in range(144)}, material={"m": MATERIAL, "steel": {"law": "rigid"}},
+                 boundary={"y0": {"fix": "xy"}})
+    write(tmp_path / "block.msh", [linspace(0, 1, 12)] * 2, body=lambda centre, b: f"b{int(12 * centre[0]) * 12 + int(12 * centre[1])}")
+    result = run("s.yml", "-body_b143_motion_y", -0.01, text=text)
+    assert result.returncode == 0 and result.summary["body"]["b143"]["force"][1] == pytest.approx(result.summary["reaction"]["y0"][1], rel=1e-9), result
 
 
 def test_names_that_files_cannot_bear(run, tmp_path):

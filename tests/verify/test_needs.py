@@ -77,6 +77,7 @@ def test_symmetry_is_told_before(run):
     told = "note: mesh, supports and loads are symmetric about x = 0: half is enough"
     assert told in run("inputs/hertz2d.yml", "-check").stdout
     assert told not in run("inputs/hertz2d.yml", "-check", "-boundary_top_displacement_x", 0.01).stdout
+    assert told not in run("inputs/hertz2d.yml", "-check", "-body_disc_force_x", "0.01*t*(1-t)").stdout  # gone at the end
     assert "symmetric about" not in run("inputs/cylinder.yml", "-check").stdout
 
 

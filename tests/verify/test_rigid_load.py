@@ -5,6 +5,7 @@ import re
 
 import pytest
 
+from boxmesh import linspace, write
 from contactkit import is_quadratic, steps
 from test_input import refused
 from test_rigid import GAP, contact, pressed, roller, solve
@@ -267,3 +268,15 @@ def test_refused(run, tmp_path, edit, words):
     scene = pressed(tmp_path, tool={"law": "rigid"})
     edit(scene)
     refused(run("scene.yml", text=json.dumps(scene)), *words)
+
+
+@pytest.mark.parametrize("dim", [2, 3])
+def test_refused_where_a_corner_is_shared(run, tmp_path, dim):
+    """A strap that hangs together with the tool at a corner (an edge) holds it by no contact."""
+    scene = pressed(tmp_path, dim, 1, {"law": "rigid"})
+    scene["body"] |= {"tool": {"material": "tool", "load": {"y": -0.01}}, "strap": {"material": "elastic"}}
+    maps = [lambda x, y, *z: (x, y, *z), lambda x, y, *z: (x, 1.1 + y, *z), lambda x, y, *z: (1 + x, 2.1 + y, *z)]
+    name = ("strip", "tool", "strap")
+    write(scene["mesh"]["file"], [linspace(0, 1, 1)] * dim, maps, side=lambda side, centre, block: f"{name[block]}_{side}", body=lambda centre, block: name[block])
+    scene["boundary"]["strap_x1"] = {"fix": "xyz"[:dim]}
+    refused(run("scene.yml", text=json.dumps(scene)), "body.tool.load", "joined to body 'strap'", "contact alone")
