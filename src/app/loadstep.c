@@ -44,9 +44,11 @@ static PetscErrorCode LoadStep_Private(App *app, PetscBool *ok)
   if (*ok) PetscCall(AppAdapt(app));
   if (app->path.stopped) *ok = PETSC_FALSE;
   if (*ok || app->path.stopped) PetscFunctionReturn(PETSC_SUCCESS);
-  app->failure = app->path.limit_point
-                     ? "the load has a limit point here: drive by volume, advance or displacement of a boundary, or set load.control: arc_length"
-                     : report.reason;
+  app->failure = report.reason;
+  if (app->path.limit_point)
+    app->failure = InterfaceSlips(ProblemInterface(app->level.problem))
+                       ? "the load has a limit point here: drive by volume, advance or displacement of a boundary"
+                       : "the load has a limit point here: drive by volume, advance or displacement of a boundary, or set load.control: arc_length";
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -6,6 +6,18 @@
 
 /* ---- time ------------------------------------------------------------------------------------------------------------------------ */
 
+/* The decimal number that a sum of steps is meant to be, where it is one but for round-off: an expression like t > 1 is not to be true at the end of twenty
+   steps of 0.05. */
+static PetscReal Decimal_Private(PetscReal t)
+{
+  char   text[32];
+  double decimal;
+
+  (void)snprintf(text, sizeof(text), "%.12g", (double)t);
+  decimal = strtod(text, NULL);
+  return PetscAbsReal(decimal - t) <= 1e-13 * PetscAbsReal(t) ? decimal : t;
+}
+
 PetscReal PathStepEnd(const SceneData *data, PetscReal t, PetscReal dt)
 {
   const MechanicsSpec *m    = &data->mechanics;
@@ -14,7 +26,7 @@ PetscReal PathStepEnd(const SceneData *data, PetscReal t, PetscReal dt)
 
   for (PetscInt i = 0; i < m->num_boundaries; ++i) last = PetscMin(last, AmplitudeNext(&m->boundaries[i].amplitude, t + tiny));
   for (PetscInt i = 0; i < m->num_bodies; ++i) last = PetscMin(last, AmplitudeNext(&m->bodies[i].amplitude, t + tiny));
-  return t + dt > last - tiny ? last : t + dt;
+  return t + dt > last - tiny ? last : Decimal_Private(t + dt);
 }
 
 static PetscReal TimeEnd_Private(const Path *p, const PathLoop *loop)

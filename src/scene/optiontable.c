@@ -170,7 +170,8 @@ const Option Options[] = {
      "arc_length: t, the factor of all loads, is found along the path of equilibria, through limit points, until it reaches end", SCENE(data.load.control)},
     {"load.stable", KEY_BOOL, "", "true", "",
      "where the equilibrium found is unstable, as that of a column beyond its critical load, a stable one of less energy is taken; not along a path "
-     "(arc_length), nor where there is no energy: follower loads, plastic flow, incompressible material",
+     "(arc_length), nor where there is no energy to find it by: friction, tied pairs, follower loads, loads of rigid bodies, plastic flow, incompressible "
+     "material; there it is told",
      SCENE(data.load.stable)},
     {"load.stop_displacement", KEY_REAL, "length", "0", NOT_BELOW, "the run ends once a displacement component is as large; 0: it does not",
      SCENE(data.load.stop_displacement)},

@@ -1,7 +1,11 @@
 /* The inertia of the symmetric tangent. At a stable equilibrium K is positive on every motion the constraints allow, and the matrix [K B^T; B 0] then has one
    negative eigenvalue for each constraint. Each one more is a direction of motion in which the energy falls: the equilibrium is unstable. Newton's method finds
    such states as it finds others. Where there is an energy a stable equilibrium is looked for from there (stable.c, load.stable); elsewhere, and along a path
-   that load or motion prescribes, where they may be what is wanted (behind a bifurcation, beyond a limit point), they are counted, not refused. */
+   that load or motion prescribes, where they may be what is wanted (behind a bifurcation, beyond a limit point), they are counted, not refused.
+
+   LU, of a tangent that is not symmetric, tells no inertia, but the sign of the determinant: rows of multipliers are such that each adds a factor above zero
+   where K is positive, pressures of incompressible material one below. So it tells an odd number of such directions, as there is beyond the first of a column's
+   critical loads, and nothing of an even one. */
 #include "solveimpl.h"
 
 /* MUMPS leaves the root of a distributed factor to ScaLAPACK, which does not count pivots, unless ICNTL(13) is 1: so chosen where somebody wants to know, with
@@ -18,6 +22,26 @@ PetscErrorCode SolverInertiaSetUp_Private(Solver s)
   PetscCall(PetscOptionsHasName(NULL, NULL, "-mat_mumps_icntl_13", &set));
   if ((incompressible || (energy && scene->load.stable)) && !set) PetscCall(PetscOptionsSetValue(NULL, "-mat_mumps_icntl_13", "1"));
   PetscCall(PetscOptionsHasName(NULL, NULL, "-mat_mumps_icntl_13", &set)); /* ours: not one that nothing used, where nothing is factorised */
+  PetscCall(PetscOptionsHasName(NULL, NULL, "-mat_mumps_icntl_33", &set));
+  if (!set) PetscCall(PetscOptionsSetValue(NULL, "-mat_mumps_icntl_33", "1")); /* the determinant */
+  PetscCall(PetscOptionsHasName(NULL, NULL, "-mat_mumps_icntl_33", &set));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* MUMPS' factor in pc, NULL: none that could tell. */
+static PetscErrorCode Factor_Private(PC pc, Mat *F)
+{
+  PCFailedReason failed;
+  MatSolverType  type;
+  PetscBool      mumps;
+
+  PetscFunctionBegin;
+  *F = NULL;
+  PetscCall(PCGetFailedReason(pc, &failed));
+  if (failed != PC_NOERROR) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PCFactorGetMatSolverType(pc, &type));
+  PetscCall(PetscStrcmp(type, MATSOLVERMUMPS, &mumps));
+  if (mumps) PetscCall(PCFactorGetMatrix(pc, F));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -27,8 +51,7 @@ static PetscErrorCode Negative_Private(Solver s, PC pc, PetscInt *negative)
   PCFailedReason failed;
   PetscMPIInt    size;
   PetscInt       whole = 0;
-  PetscBool      set, mumps;
-  MatSolverType  type;
+  PetscBool      set;
   Mat            F;
 
   PetscFunctionBegin;
@@ -36,16 +59,33 @@ static PetscErrorCode Negative_Private(Solver s, PC pc, PetscInt *negative)
   PetscCallMPI(MPI_Comm_size(PetscObjectComm((PetscObject)pc), &size));
   PetscCall(PetscOptionsGetInt(NULL, NULL, "-mat_mumps_icntl_13", &whole, &set));
   PetscCall(PCGetFailedReason(pc, &failed));
-  if (!s->symmetric || failed != PC_NOERROR || (size > 1 && whole != 1)) PetscFunctionReturn(PETSC_SUCCESS);
+  if (failed != PC_NOERROR || (size > 1 && whole != 1)) PetscFunctionReturn(PETSC_SUCCESS);
   if (s->single) {
     PetscCall(SingleFactorNegative_Private(pc, negative));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  PetscCall(PCFactorGetMatSolverType(pc, &type));
-  PetscCall(PetscStrcmp(type, MATSOLVERMUMPS, &mumps));
-  if (!mumps) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(PCFactorGetMatrix(pc, &F));
-  PetscCall(MatMumpsGetInfog(F, 12, negative));
+  PetscCall(Factor_Private(pc, &F));
+  if (F) PetscCall(MatMumpsGetInfog(F, 12, negative));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Of LU: 1 where the determinant's sign tells a direction in which the equilibrium is unstable, else 0; -1: it does not tell. Rows that controls add
+   (load.control, loads of rigid bodies) have signs of their own. */
+static PetscErrorCode Parity_Private(Solver s, PC pc, PetscInt *negative)
+{
+  PetscReal mantissa;
+  PetscInt  below;
+  Mat       F;
+
+  PetscFunctionBegin;
+  *negative = -1;
+  PetscCall(ProblemIsOddNegative(s->problem, &below));
+  if (s->single || below < 0) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(Factor_Private(pc, &F));
+  if (!F) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(MatMumpsGetRinfog(F, 12, &mantissa));
+  PetscCall(PetscInfo(s->snes, "mantissa of the determinant %g, below zero where stable: %" PetscInt_FMT "\n", (double)mantissa, below));
+  if (mantissa != 0) *negative = (mantissa < 0) != (below == 1);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -54,6 +94,10 @@ PetscErrorCode SolverInertia_Private(Solver s, PC pc)
   PetscInt constraints;
 
   PetscFunctionBegin;
+  if (!s->symmetric) {
+    PetscCall(Parity_Private(s, pc, &s->negative));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
   PetscCall(Negative_Private(s, pc, &s->negative));
   if (s->negative < 0) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ProblemNumNegative(s->problem, &constraints));

@@ -81,3 +81,28 @@ def test_incompressible_columns_are_told(run, tmp_path):
     scene["material"]["m"]["nu"] = 0.5
     s = solved(run, json.dumps(scene)).summary
     assert s["unstable_equilibria"] == 1 and s["stabilised"] == 0
+
+
+@pytest.mark.parametrize("kind", ["j2", "friction"])
+def test_told_by_the_determinant(run, tmp_path, kind):
+    """Tangents that are not symmetric, of a metal that does not flow yet, or with a pair that never touches: where the
+    column has one direction to buckle in, the sign of their determinant tells."""
+    scene = json.loads(column(tmp_path, 1.8 * EULER, 2, order=3))
+    if kind == "j2":
+        scene["material"]["m"].update(law="j2", **{"yield": 1e3})
+    else:
+        write(tmp_path / "column.msh", [linspace(0, LENGTH, 16), linspace(0, HEIGHT, 1)], [lambda x, y: (x, y), lambda x, y: (x, y + 5)],
+              side=lambda name, centre, block: name + "wall" * block, body=lambda centre, block: "wall" if block else "body")
+        scene["body"]["wall"], scene["material"]["r"] = {"material": "r"}, {"law": "rigid"}
+        scene["contact"] = {"c": {"nonmortar": "y1", "mortar": "y0wall", "friction": 0.3}}
+    for ranks in (1, 2) if kind == "j2" else (1,):
+        result = solved(run, json.dumps(scene), ranks=ranks)
+        assert result.summary["unstable_equilibria"] == 1 and "1 solution is unstable, the first at t = 1" in result.stdout, result
+
+
+def test_times_are_the_decimals_they_are_meant_to_be(run, tmp_path):
+    """Steps of 0.05 add up to 1 and a little: what begins after t = 1 has not begun there."""
+    scene = json.loads(column(tmp_path, 0, 20, order=1))
+    scene["boundary"]["x1"]["displacement"]["x"] = "t > 0.3 ? -0.01 : 0"
+    result = solved(run, json.dumps(scene), "-load_end", 0.35)
+    assert [row["reaction.x1.x"] != 0 for row in result.history] == 6 * [False] + [True], result
