@@ -279,10 +279,11 @@ MESHES = {"2 x 3, 2 x 2": ((2, 3, 1), (2, 2, 1), 0), "4 x 3, 2 x 2": ((4, 3, 1),
 
 @pytest.mark.parametrize("kind,name", [pytest.param("2-full", name, marks=slow if name == "refined" else ()) for name in MESHES])
 def test_lines_are_held(solve, name):
-    """The same on other meshes, whose lines lie on each other in one plane or two: forces hold them from where residuals come and go; no viscous regularisation. The last mesh, the boxes of O-99 refined, is pressed to 0.25."""
+    """The same on other meshes, whose lines lie on each other in one plane or two: forces hold them from where residuals come and go; no viscous regularisation. The last mesh, the boxes of O-99 refined, is pressed to 0.25. On 6 x 6 cells the state in the
+    middle is unstable at the end, and one beside it has less energy: load.stable is off."""
     lower, upper, cuts = MESHES[name]
     deep = 0.25 if name == "refined" else 0.3
-    result = solve(*space.QUIET, "-path_viscous", "off", boundary=hold(("0", "0", f"-{deep}*t")), load={"step": 0.1}, lower=LOWER._replace(number=lower), upper=UPPER._replace(number=upper))
+    result = solve(*space.QUIET, "-path_viscous", "off", "-load_stable", 0, boundary=hold(("0", "0", f"-{deep}*t")), load={"step": 0.1}, lower=LOWER._replace(number=lower), upper=UPPER._replace(number=upper))
     s, held = space.good(result), [row["t"] for row in result.history if row["frozen_segmentation"]]
     print("iterations", s["newton_iterations"], "cuts", s["step_cuts"], "frozen from", held[0], "across", s["reaction"]["upper_z1"][0] / s["reaction"]["upper_z1"][2])
     assert s["step_cuts"] <= cuts and s["newton_iterations"] < 110 and held[0] > 0.5 and held[-1] == 1
