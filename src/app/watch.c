@@ -234,9 +234,10 @@ PetscErrorCode AppWarn(App *app)
   if (app->rough_error > ROUGH * app->rough_norm) {
     const PetscReal share = app->rough_error / app->rough_norm;
     PetscCall(WarningAdd(app->comm,
-                         "the estimated error is up to %.3g %% of the largest solution, at t = %.6g: stresses of this run say little, and the energy, with it "
-                         "forces, may be off by %.2g %%",
-                         100 * (double)share, (double)app->rough_t, 100 * (double)PetscSqr(share)));
+                         "the estimated error is up to %.3g %% of the largest solution, at t = %.6g: stresses of this run say little, and the %s may be off by "
+                         "%.2g %%",
+                         100 * (double)share, (double)app->rough_t, MechanicsIsPlastic(&app->data->mechanics) ? "elastic energy" : "energy, with it forces,",
+                         100 * (double)PetscSqr(share)));
   }
   if (app->path.unstable > 0)
     PetscCall(WarningAdd(app->comm, "%" PetscInt_FMT " %s unstable, the first at t = %.6g: the least disturbance would lead to another equilibrium",
