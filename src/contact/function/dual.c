@@ -194,24 +194,27 @@ static PetscReal Positive_Private(PetscInt num, const PetscReal weight[])
 /* Functions of nodes that carry nothing go to the others; their rows go. */
 static PetscErrorCode GroupRemove_Private(MultiplierWork *w, const Group *g, PetscInt degree)
 {
-  PetscInt   kept = 0;
-  PetscBool *carries;
+  PetscInt   takers = 0;
+  PetscBool *carries, *takes;
   PetscReal *W;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(g->num, &carries));
-  for (PetscInt i = 0; i < g->num; i++) kept += carries[i] = w->carries[g->node[i]];
-  PetscCall(PetscCalloc1(kept ? g->num * g->num : 0, &W));
-  if (kept && !g->hangs) PetscCall(ContactExtrapolateLattice(w->s->dim, w->s->order ? w->s->order[g->facet[0]] : 1, degree, carries, W));
-  if (kept && g->hangs) PetscCall(ContactExtrapolateNodes(w->s, g->num_facets, g->facet, degree, g->num, g->node, carries, W));
-  if (kept) PetscCall(ContactDonorsKeep(w->donors + g->facet[0], g->num, g->node, carries, W));
+  PetscCall(PetscMalloc2(g->num, &carries, g->num, &takes));
+  for (PetscInt i = 0; i < g->num; i++) {
+    carries[i]         = w->carries[g->node[i]];
+    takers += takes[i] = (PetscBool)(carries[i] && !(w->keeps && w->keeps[g->node[i]]));
+  }
+  PetscCall(PetscCalloc1(takers ? g->num * g->num : 0, &W));
+  if (takers && !g->hangs) PetscCall(ContactExtrapolateLattice(w->s->dim, w->s->order ? w->s->order[g->facet[0]] : 1, degree, takes, W));
+  if (takers && g->hangs) PetscCall(ContactExtrapolateNodes(w->s, g->num_facets, g->facet, degree, g->num, g->node, takes, W));
+  if (takers) PetscCall(ContactDonorsKeep(w->donors + g->facet[0], g->num, g->node, carries, W));
   for (PetscInt f = 0; f < g->num_facets; f++) {
     const PetscInt  num = ContactLatticeSize(w->s, g->facet[f]);
     MultiplierRows *r   = w->rows + g->facet[f];
 
     r->num = 0;
     for (PetscInt i = 0; i < g->num; i++) {
-      if (!carries[i]) continue;
+      if (!takes[i]) continue;
       for (PetscInt e = 0; e < g->num; e++) {
         const PetscReal weight = carries[e] ? 0 : W[g->num * e + i], positive = weight > 0 ? weight / Positive_Private(g->num, W + g->num * e) : 0;
 
@@ -228,7 +231,7 @@ static PetscErrorCode GroupRemove_Private(MultiplierWork *w, const Group *g, Pet
       r->node[r->num++] = g->node[i];
     }
   }
-  PetscCall(PetscFree(carries));
+  PetscCall(PetscFree2(carries, takes));
   PetscCall(PetscFree(W));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -43,9 +43,10 @@ typedef struct ContactMultiplier {
   PetscReal *donor_weight; /* sum 1 at a node */
 } ContactMultiplier;
 
-/* Multiplier functions of a surface from its reference positions X (x is not looked at). carries[num_nodes] (NULL: all): the true node has a multiplier.
-   Not collective. */
-PetscErrorCode ContactMultiplierCreate(const ContactSurface *, PetscBool axisymmetric, PetscBool standard, const PetscBool carries[], ContactMultiplier **);
+/* Multiplier functions of a surface from its reference positions X (x is not looked at). carries[num_nodes] (NULL: all): the true node has a multiplier;
+   keeps[num_nodes] (NULL: none): of those that have, it takes no share of others' functions. Not collective. */
+PetscErrorCode ContactMultiplierCreate(const ContactSurface *, PetscBool axisymmetric, PetscBool standard, const PetscBool carries[], const PetscBool keeps[],
+                                       ContactMultiplier **);
 PetscErrorCode ContactMultiplierDestroy(ContactMultiplier **);
 
 /* lattice.c: number of nodes of a facet's lattice; M[num][num] = int N_a N_b (NULL: not wanted), D[num] = int N_a of a facet in the reference measure. */
@@ -79,6 +80,7 @@ typedef struct {
   const ContactSurface *s;
   PetscBool             axisymmetric, standard;
   const PetscBool      *carries; /* [num_nodes] */
+  const PetscBool      *keeps;   /* [num_nodes] or NULL */
   PetscInt             *root;    /* [num_facets] ContactFacetGroups */
   PetscBool            *exact;   /* [num_facets] P^T psi_L */
   PetscInt             *place;   /* [num_nodes] -1; row of a true node in the group at hand */

@@ -216,9 +216,10 @@ static PetscErrorCode Pack_Private(const MultiplierWork *w, ContactMultiplier **
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ContactMultiplierCreate(const ContactSurface *s, PetscBool axisymmetric, PetscBool standard, const PetscBool carries[], ContactMultiplier **out)
+PetscErrorCode ContactMultiplierCreate(const ContactSurface *s, PetscBool axisymmetric, PetscBool standard, const PetscBool carries[], const PetscBool keeps[],
+                                       ContactMultiplier **out)
 {
-  MultiplierWork w = {.s = s, .axisymmetric = axisymmetric, .standard = standard};
+  MultiplierWork w = {.s = s, .axisymmetric = axisymmetric, .standard = standard, .keeps = keeps};
   PetscBool     *own;
   PetscReal     *whole;
 
