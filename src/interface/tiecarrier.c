@@ -1,7 +1,8 @@
 /* Which nodes of a tied pair carry which components of the traction, and to whom the functions of the others go (tie.c).
 
    A node that supports hold along h has no function for what acts along h: that goes to the nodes of its facets which are free along h. Those that a support
-   holds obliquely to h keep their own function and take no share: what acts there along their own held direction comes from others as well. So each direction
+   holds obliquely to h keep their own function and take no share: what acts there along their own held direction comes from others as well. Nodes that carry
+   nothing give theirs before, the same for every direction: only so a constant traction is one. So each direction
    has functions of its own on facets with nodes that are held along it. Supports are flat: there are few. Nothing here knows the axes of the coordinates. */
 #include "interfaceimpl.h"
 
@@ -103,7 +104,7 @@ static PetscErrorCode Along_Private(Contact *c, const PetscReal h[3])
     if (!c->tie->functions[0].carries[n]) continue;
     const int hold = Hold_Private(s, n, h);
     f->carries[n]  = (PetscBool)(hold < 1);
-    f->keeps[n]    = (PetscBool)(hold == 0);
+    f->keeps[n]    = (PetscBool)(hold >= 0);
     for (PetscInt i = s->node_first[n]; i < s->node_first[n + 1] && hold == 1; ++i) f->here[s->node_facet[i]] = PETSC_TRUE;
   }
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -313,6 +313,20 @@ def test_patch_in_a_pyramid(run, tmp_path, pair, order, hangs):
     assert max(error) < 1e-10, error
 
 
+def test_patch_of_three_in_a_pyramid(run, tmp_path):
+    """Nodes where pairs meet, which carry nothing, beside nodes on walls that are not at right angles."""
+    parts = {"top": Box((0, 0, 1), (1, 1, 1), (3, 2, 1)), "one": Box((0, 0, 0), (0.45, 1, 1), (2, 3, 2)), "two": Box((0.45, 0, 0), (0.55, 1, 1), (1, 1, 1))}
+    sides = {name: {"displacement": motion(0.05 * numpy.eye(3))} for name in ("top_z1", "one_z0", "two_z0")}
+    pairs = [("one_z1", "top_z0"), ("two_z1", "top_z0"), ("two_x0", "one_x1")]
+    glue = {"contact": {f"glue{i}": {"nonmortar": one, "mortar": two, "roles": "given", "kind": "tied"} for i, (one, two) in enumerate(pairs)}}
+    text = between_walls(tmp_path, pairs[0], pyramid, {**sides, "one_x1": None, "two_x0": None}, 2, parts=parts, **glue)
+    result = run("three.yml", text=text)
+    assert result.returncode == 0, result
+    error = affine(bulk(result), 0.05 * numpy.eye(3))
+    print(error)
+    assert error < 1e-9, error
+
+
 NARROW = {"lower": Box((0, 0, 0), (1, 1, 1), (2, 2, 1)), "upper": Box((0, 0, 1), (0.7, 1, 1), (2, 1, 1))}
 a, b = math.radians(40), math.radians(25)
 SKEW = numpy.array([[1, 0, 0], [0, math.cos(a), -math.sin(a)], [0, math.sin(a), math.cos(a)]]) @ [[math.cos(b), -math.sin(b), 0], [math.sin(b), math.cos(b), 0], [0, 0, 1]]
