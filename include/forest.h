@@ -28,7 +28,7 @@ typedef struct {
   char      name[MORTISE_NAME];
   PetscInt  group;  /* boundary group, -1: cells anywhere */
   PetscReal X[3];   /* reference position */
-  PetscReal radius; /* cells whose box of corners is no further from X; negative: all */
+  PetscReal radius; /* cells no further from X; negative: all */
   PetscInt  levels; /* how often */
 } RefineSpec;
 

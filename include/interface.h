@@ -152,6 +152,8 @@ void InterfaceGetTraffic(Interface, ContactTraffic *);
 /* Components z[num_z][nonmortar.num_nodes], from the second on, of tangential tractions on the mortar side traction[..][3] along the axes of the last
    evaluation, friction in space: of this rank's own nodes. Not collective. */
 PetscErrorCode InterfaceResolveTractions(Interface, PetscInt pair, const PetscReal traction[], PetscReal z[]);
+/* Of a tied pair: z[dim][nonmortar.num_nodes] along the coordinates to the axes of the nodes, this rank's own. */
+void InterfaceResolveTies(Interface, PetscInt pair, PetscReal z[]);
 /* Set the multipliers of a pair from values[num_z][nonmortar.num_nodes] in x: each rank those of its own nodes. */
 PetscErrorCode InterfaceSetMultipliers(Interface, PetscInt pair, const PetscReal z[], Vec x);
 /* The opposite: values of this rank's own nodes from x, z[num_z][nonmortar.num_nodes]; others and nodes without multiplier stay as they are. Not collective.

@@ -199,13 +199,11 @@ static PetscBool IsWeightless_Private(const Interface p, const Contact *c, Petsc
   return (PetscBool)(PetscAbsReal(s->X[s->dim * n]) <= ROUND_LENGTH * c->extent[n]);
 }
 
-PetscBool ContactIsFree_Private(const Interface p, const Contact *c, PetscInt n, PetscInt axis)
+PetscBool ContactIsFree_Private(const Interface p, const Contact *c, PetscInt n)
 {
   const Surface *s = &c->side[0];
 
-  for (PetscInt d = 0; d < s->dim; ++d)
-    if ((s->dof[s->dim * n] >> d) & 1 && PetscAbsReal(s->frame[s->dim * (s->dim * n + d) + axis]) > CONTACT_SLIVER) return PETSC_FALSE;
-  return (PetscBool)!IsWeightless_Private(p, c, n, s->node_facet[s->node_first[n]]);
+  return (PetscBool)(s->dof[s->dim * n] != (1 << s->dim) - 1 && !IsWeightless_Private(p, c, n, s->node_facet[s->node_first[n]]));
 }
 
 /* Of a surface that may meet itself: is the node where two facets meet like the flanks of a notch? The gap is 0 there whatever moves, and has no row. */

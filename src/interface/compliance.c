@@ -26,7 +26,7 @@ PetscReal ContactIdle_Private(const Contact *c, PetscInt j)
     PetscInt            row;
     const ContactFacet *e = ContactCompliant_Private(c, 0, j, i, &row);
     for (PetscInt l = 0; e && l < e->num_rows; ++l) {
-      if (l != row && !c->active[e->nodes[l]]) sum += ContactCompliance_Private(e, row, l) * c->z[e->nodes[l]];
+      if (l != row && !c->active[e->nodes[l]]) sum += ContactSoft_Private(c, 0, e, row, l) * c->z[e->nodes[l]];
     }
   }
   return sum;

@@ -157,7 +157,7 @@ PetscErrorCode ContactCreate_Private(Interface p, const ContactSpec *spec, Conta
   PetscCall(ContactNodeScales_Private(p, c));
   if (!c->law->ties) ContactCarriers_Private(p, c);
   const ContactSurface nonmortar = SurfaceAt_Private(&c->side[0], c->side[0].X);
-  PetscCall(ContactPairSetCarriers(c->pair, &nonmortar, c->has_multiplier));
+  PetscCall(ContactPairSetCarriers(c->pair, &nonmortar, c->has_multiplier, NULL));
   for (PetscInt j = 0; j < n; ++j) c->softness[j] = 1 / c->c[j];
   /* With small kinematics what facets cover does not change, and constraints of order 1 stay exact. */
   if (c->law->ties || higher || p->spec->kinematics != KINEMATICS_SMALL) ContactPairSetSoftness(c->pair, c->softness);

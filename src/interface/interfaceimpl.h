@@ -128,22 +128,33 @@ typedef struct {
   const ContactFacet *facets;
 } SlipHistory;
 
-/* Tied pairs (tie.c), by components k of the traction. Facets: rows as those of contact, with storage of their own. */
+/* Tied pairs (tie.c), by components k of the traction along the axes of the nodes' frames. Facets: rows as those of contact, with storage of their own. tie:
+   [rows][num][dim] by positions; arm: [rows][3][3] vectors by those of the facet; start: [rows] at the reference positions; soft: [rows][dim][rows] compliance
+   by components of others, NULL: none. */
 typedef struct {
   ContactFacet facet, bend; /* bend: second derivatives alone, by the masters of the facet's corners */
   PetscBool    bends;
-  PetscReal   *gap, *start, *arm, *dgap, *hessian; /* start: [rows] at the reference positions; arm: [rows][3] */
+  PetscReal   *weight, *gap, *tie, *start, *arm, *dgap, *hessian, *soft;
 } TieFacet;
 
+/* The nodes' functions for what acts along a direction in which supports hold nodes (tiecarrier.c). The first of a pair: nothing is held. */
 typedef struct {
-  PetscInt   num_facets[3], *result[3]; /* as those of Contact */
-  TieFacet  *facets[3];
-  PetscBool *carries;                   /* [dim][n] there is a row */
-  PetscReal *weight, *gap, *lift;       /* [dim][n] as those of Contact; gap: with what compliances add, S z */
-  PetscReal *spring;                    /* [dim][n] S_jj */
-  PetscReal *z;                         /* [dim][n] what is shown: where there is no row, from other nodes */
-  PetscInt  *donor_first[3], *donor[3]; /* ContactPairGetDonors of each component */
-  PetscReal *donor_weight[3];
+  PetscReal  along[3];
+  PetscBool *carries, *keeps;     /* [n] of ContactPairSetCarriers */
+  PetscBool *here;                /* [num_facets] some of its nodes are held so */
+  PetscInt  *donor_first, *donor; /* ContactPairGetDonors */
+  PetscReal *donor_weight;
+} TieFunctions;
+
+typedef struct {
+  PetscInt      num_facets[3], *result[3]; /* as those of Contact */
+  TieFacet     *facets[3];
+  PetscBool    *carries;             /* [dim][n] there is a row */
+  PetscReal    *weight, *gap, *lift; /* [dim][n] as those of Contact; gap: with what compliances add, S z */
+  PetscReal    *spring;              /* [dim][n] S_jj */
+  PetscReal    *z;                   /* [dim][n] along the coordinates, what is shown: where there is no row, from other nodes */
+  PetscInt      num_functions, room;
+  TieFunctions *functions;
 } Tie;
 
 typedef struct {
@@ -341,8 +352,22 @@ static inline void NodeTurn_Private(PetscInt dim, const PetscReal *q, PetscReal 
    and multipliers are gathered. Change: of every owned node's rows, [dim][n]. Forces: of this rank's facets, added. All but Point, Forces and Destroy
    collective. */
 PetscErrorCode TieCreate_Private(Interface, Contact *);
-/* tiecarrier.c: carries[dim][n], before supports' frames are those of rows. has_multiplier: those that carry any. Collective. */
-PetscErrorCode TieCarriers_Private(Interface, Contact *, PetscBool carries[]);
+/* tiecarrier.c: the functions, before the rows of the matrix are known. has_multiplier: nodes that carry any component. Collective. */
+PetscErrorCode TieCarriers_Private(Interface, Contact *);
+/* tiesum.c: facets and their rows; weights and compliances of the nodes. Collective. */
+PetscErrorCode TieSum_Private(Interface, Contact *);
+/* Diagonals e[0], e[1] of a facet with these corners and its vector e[2]; plane: e[1] = e_z. */
+void TieFrame_Private(const Surface *, const PetscReal x[], PetscInt facet, PetscReal e[3][3]);
+/* Axis k of the frame of a node. */
+static inline void TieAxis_Private(const Surface *s, PetscInt node, PetscInt k, PetscReal axis[3])
+{
+  for (PetscInt d = 0; d < 3; ++d) axis[d] = d < s->dim ? s->frame[s->dim * (s->dim * node + k) + d] : 0;
+}
+/* Does a support hold the node along it? Until the rows of the matrix are known. */
+static inline PetscBool TieHolds_Private(const Surface *s, PetscInt node, PetscInt k)
+{
+  return (PetscBool)((s->dof[s->dim * node] >> k) & 1);
+}
 PetscErrorCode TieDestroy_Private(Contact *);
 PetscErrorCode TieEvaluate_Private(Interface, Contact *);
 PetscErrorCode TieChange_Private(Interface, Contact *, const PetscReal increment[], PetscReal change[]);
@@ -394,12 +419,23 @@ static inline const ContactFacet *ContactResult_Private(const Contact *c, PetscI
   if (at < 0) return NULL;
   return c->tie ? &c->tie->facets[component][at].facet : &c->facets[at];
 }
+/* Of a tied pair: compliance of component k of a row by the others, [dim][rows]; NULL: none. */
+static inline const PetscReal *TieSoft_Private(const Contact *c, PetscInt k, const ContactFacet *e, PetscInt row)
+{
+  const TieFacet *f = &c->tie->facets[k][c->tie->result[k][e->facet]];
+  return f->soft ? f->soft + c->num * e->num_rows * row : NULL;
+}
+/* S between row k of facet e, of this component, and row l; of a tied pair row l % num_rows, component l / num_rows. */
+static inline PetscReal ContactSoft_Private(const Contact *c, PetscInt component, const ContactFacet *e, PetscInt k, PetscInt l)
+{
+  return c->tie ? TieSoft_Private(c, component, e, k)[l] : ContactCompliance_Private(e, k, l);
+}
 /* Of the facets around node j, place i of node_facet: the facet where it has a compliance, and the row of j there; else NULL. */
 static inline const ContactFacet *ContactCompliant_Private(const Contact *c, PetscInt component, PetscInt j, PetscInt i, PetscInt *row)
 {
   const ContactFacet *e = ContactResult_Private(c, component, c->side[0].node_facet[i]);
 
-  if (!e || !e->compliance) return NULL;
+  if (!e || !(c->tie ? TieSoft_Private(c, component, e, 0) : e->compliance)) return NULL;
   for (*row = 0; *row < e->num_rows; ++*row)
     if (e->nodes[*row] == j) return e;
   return NULL;
@@ -447,8 +483,8 @@ PetscErrorCode ContactShared_Private(Interface, Contact *);
 /* carrier.c: w0, extent and c of the nodes; which of them carry a multiplier. */
 PetscErrorCode ContactNodeScales_Private(Interface, Contact *);
 void           ContactCarriers_Private(Interface, Contact *);
-/* Do supports leave a node of the nonmortar side free along an axis of the coordinates, and has it weight there? Until the rows of the matrix are known. */
-PetscBool ContactIsFree_Private(const Interface, const Contact *, PetscInt node, PetscInt axis);
+/* Do supports leave a node of the nonmortar side any motion, and has it weight there? Until the rows of the matrix are known. */
+PetscBool ContactIsFree_Private(const Interface, const Contact *, PetscInt node);
 /* The number of directions along the surface in which supports hold the node; of one, axis. Until the rows of the matrix are known. */
 PetscInt ContactHeldAxes_Private(const Surface *, PetscInt node, PetscReal axis[3]);
 /* With friction: does a support hold the node in a direction oblique to the surface, so that what is left to it changes gap and slip alike? */

@@ -100,12 +100,12 @@ static PetscErrorCode Couplings_Private(const InterfaceSystem *a, const Contact 
   for (PetscInt i = s->node_first[j]; form->factor != 0 && i < s->node_first[j + 1]; ++i) {
     PetscInt            row;
     const ContactFacet *e = ContactCompliant_Private(c, form->component, j, i, &row);
-    for (PetscInt k = 0; e && k < e->num_rows; ++k) {
-      const PetscInt l = e->nodes[k];
-      if (k == row || c->zdof[l] < 0 || (a->symmetric && !c->active[l])) continue;
-      PetscCall(PetscFindInt(c->zdof[l] + form->component, num, dofs, &at));
+    for (PetscInt k = 0; e && k < (c->tie ? c->num : 1) * e->num_rows; ++k) {
+      const PetscInt l = e->nodes[k % e->num_rows], m = k / e->num_rows;
+      if ((l == j && m == form->component) || c->zdof[l] < 0 || (a->symmetric && !c->active[l])) continue;
+      PetscCall(PetscFindInt(c->zdof[l] + m, num, dofs, &at));
       PetscCheck(at >= 0, PETSC_COMM_SELF, PETSC_ERR_PLIB, "multiplier outside the pattern of its facet");
-      values[at] += form->factor * ContactCompliance_Private(e, row, k) * (a->symmetric ? c->c[l] : 1);
+      values[at] += form->factor * ContactSoft_Private(c, form->component, e, row, k) * (a->symmetric ? c->c[l] : 1);
     }
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -148,7 +148,7 @@ PetscErrorCode ContactInsertRow_Private(Interface p, const InterfaceSystem *a, c
     PetscCall(Gradient_Private(p, c, j, &row[i], &num));
     if (i == 0 || c->tie) PetscCall(Couplings_Private(a, c, j, &row[i], num, p->work.index, p->work.value));
     PetscCall(PetscFindInt(c->zdof[j], num, p->work.index, &at));
-    for (PetscInt k = 0; k < c->num; ++k) p->work.value[at + k] = a->symmetric ? row[i].z[k] * c->c[j] : row[i].z[k];
+    for (PetscInt k = 0; k < c->num; ++k) p->work.value[at + k] += a->symmetric ? row[i].z[k] * c->c[j] : row[i].z[k];
     PetscCall(SlipCouplings_Private(c, j, &row[i], num, p->work.index, p->work.value));
     PetscCall(MatSetValues(a->matrix, 1, &line, num, p->work.index, p->work.value, INSERT_VALUES));
     if (a->symmetric) PetscCall(MatSetValues(a->matrix, num, p->work.index, 1, &line, p->work.value, INSERT_VALUES));

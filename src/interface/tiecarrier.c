@@ -1,4 +1,9 @@
-/* Which nodes of a tied pair carry which components of the traction: see tie.c. */
+/* Which nodes of a tied pair carry which components of the traction, and to whom the functions of the others go (tie.c).
+
+   A node that supports hold along h has no function for what acts along h: that goes to the nodes of its facets which are free along h. Those that a support
+   holds obliquely to h keep their own function and take no share: what acts there along their own held direction comes from others as well. Nodes that carry
+   nothing give theirs before, the same for every direction: only so a constant traction is one. So each direction
+   has functions of its own on facets with nodes that are held along it. Supports are flat: there are few. Nothing here knows the axes of the coordinates. */
 #include "interfaceimpl.h"
 
 /* Does the facet have this node, or one that follows it? Facets that hanging nodes join have rows of each other's nodes. */
@@ -25,7 +30,7 @@ static PetscErrorCode Seen_Private(Interface p, const Contact *c, PetscBool keep
   PetscBool           failed;
 
   PetscFunctionBegin;
-  PetscCall(ContactPairSetCarriers(c->pair, &side[0], NULL));
+  PetscCall(ContactPairSetCarriers(c->pair, &side[0], NULL, NULL));
   PetscCall(ContactPairTie(c->pair, &side[0], &side[1], &num, &facets, &failed));
   PetscCall(PetscArrayzero(keep, c->side[0].num_nodes));
   for (PetscInt i = 0; i < num; ++i) {
@@ -50,23 +55,92 @@ static PetscErrorCode Seen_Private(Interface p, const Contact *c, PetscBool keep
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode TieCarriers_Private(Interface p, Contact *c, PetscBool carries[])
+/* Functions as those where nothing is held. */
+static PetscErrorCode New_Private(Contact *c, TieFunctions **functions)
+{
+  const PetscInt n = c->side[0].num_nodes;
+  Tie           *t = c->tie;
+  TieFunctions  *f;
+
+  PetscFunctionBegin;
+  PetscCall(ArrayGrow(t->num_functions + 1, sizeof(TieFunctions), &t->room, &t->functions));
+  f = *functions = &t->functions[t->num_functions++];
+  *f             = (TieFunctions){0};
+  PetscCall(PetscCalloc3(n, &f->carries, n, &f->keeps, c->side[0].num_facets, &f->here));
+  PetscCall(PetscArraycpy(f->carries, t->functions[0].carries, n));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscBool IsParallel_Private(const PetscReal a[3], const PetscReal b[3])
+{
+  return (PetscBool)(1 - PetscSqr(Dot3(a, b)) <= PetscSqr(ROUND_LENGTH));
+}
+
+/* Do supports hold the node along h? 1, in part 0, not at all -1. */
+static int Hold_Private(const Surface *s, PetscInt n, const PetscReal h[3])
+{
+  int hold = -1;
+
+  for (PetscInt d = 0; d < s->dim; ++d) {
+    PetscReal axis[3];
+    TieAxis_Private(s, n, d, axis);
+    if (!TieHolds_Private(s, n, d)) continue;
+    if (IsParallel_Private(axis, h)) return 1;
+    if (PetscAbsReal(Dot3(axis, h)) > ROUND_LENGTH) hold = 0;
+  }
+  return hold;
+}
+
+/* Functions for the direction h. */
+static PetscErrorCode Along_Private(Contact *c, const PetscReal h[3])
+{
+  const Surface *s = &c->side[0];
+  TieFunctions  *f;
+
+  PetscFunctionBegin;
+  PetscCall(New_Private(c, &f));
+  PetscCall(PetscArraycpy(f->along, h, 3));
+  for (PetscInt n = 0; n < s->num_nodes; ++n) {
+    if (!c->tie->functions[0].carries[n]) continue;
+    const int hold = Hold_Private(s, n, h);
+    f->carries[n]  = (PetscBool)(hold < 1);
+    f->keeps[n]    = (PetscBool)(hold >= 0);
+    for (PetscInt i = s->node_first[n]; i < s->node_first[n + 1] && hold == 1; ++i) f->here[s->node_facet[i]] = PETSC_TRUE;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* All directions in which nodes are held. */
+static PetscErrorCode Directions_Private(Contact *c)
+{
+  const Surface *s = &c->side[0];
+  PetscReal      h[3];
+
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < s->dim * s->num_nodes; ++i) {
+    PetscBool known = PETSC_FALSE;
+    if (!c->tie->functions[0].carries[i / s->dim] || !TieHolds_Private(s, i / s->dim, i % s->dim)) continue;
+    TieAxis_Private(s, i / s->dim, i % s->dim, h);
+    for (PetscInt k = 1; k < c->tie->num_functions && !known; ++k) known = IsParallel_Private(c->tie->functions[k].along, h);
+    if (!known) PetscCall(Along_Private(c, h));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode TieCarriers_Private(Interface p, Contact *c)
 {
   const Surface *s = &c->side[0];
   PetscBool     *crosses, *seen;
+  TieFunctions  *all;
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc2(s->num_nodes, &crosses, s->num_nodes, &seen));
   PetscCall(ContactCrossings_Private(p, c, PETSC_TRUE, crosses));
   PetscCall(Seen_Private(p, c, seen));
-  for (PetscInt n = 0; n < s->num_nodes; ++n) {
-    c->has_multiplier[n] = PETSC_FALSE;
-    for (PetscInt k = 0; k < p->dim; ++k) {
-      PetscBool *to = &carries[s->num_nodes * k + n];
-      *to           = (PetscBool)(s->hang[n] == s->hang[n + 1] && !crosses[n] && seen[n] && ContactIsFree_Private(p, c, n, k));
-      if (*to) c->has_multiplier[n] = PETSC_TRUE;
-    }
-  }
+  PetscCall(New_Private(c, &all));
+  for (PetscInt n = 0; n < s->num_nodes; ++n)
+    all->carries[n] = c->has_multiplier[n] = (PetscBool)(s->hang[n] == s->hang[n + 1] && !crosses[n] && seen[n] && ContactIsFree_Private(p, c, n));
   PetscCall(PetscFree2(crosses, seen));
+  PetscCall(Directions_Private(c));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -38,6 +38,7 @@ static PetscErrorCode Multipliers_Private(const TransferContext *c, Problem old_
       PetscCall(TransferMultiplier_Private(c->old_t, &from->nonmortar, old_z + k * num, from->has_multiplier, c->new_t, &to->nonmortar, c->map,
                                            z + k * to->nonmortar.num_nodes));
     if (vectors) PetscCall(Tractions_Private(c, from, traction, new_problem, i, to, z));
+    InterfaceResolveTies(ProblemInterface(new_problem), i, z);
     PetscCall(InterfaceSetMultipliers(ProblemInterface(new_problem), i, z, x));
     PetscCall(PetscFree4(z, old_z, wanted, traction));
   }

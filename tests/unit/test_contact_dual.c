@@ -134,7 +134,7 @@ static Findings Find(const ContactSurface *s, PetscBool axisymmetric, PetscBool 
   Moments            mom;
   PetscReal          most = 0;
 
-  CHECK_CALL(ContactMultiplierCreate(s, axisymmetric, standard, carries, &m));
+  CHECK_CALL(ContactMultiplierCreate(s, axisymmetric, standard, carries, NULL, &m));
   MomentsCreate(s, m, axisymmetric, points, PETSC_FALSE, &out, &mom);
   PetscBool *has = HasFunction(s, m);
   out.least      = PETSC_MAX_REAL;
@@ -217,7 +217,7 @@ static void ClosedFormOf(PetscInt dim, PetscInt p)
     LatticeChain(&l, 1, (PetscReal[]){0.3, 1.7}, &p);
   else
     LatticeSquare(&l, &c, LatticeFlat);
-  CHECK_CALL(ContactMultiplierCreate(&l.s, PETSC_FALSE, PETSC_FALSE, NULL, &m));
+  CHECK_CALL(ContactMultiplierCreate(&l.s, PETSC_FALSE, PETSC_FALSE, NULL, NULL, &m));
   assert_int_equal(m->row_first[1], num);
   for (PetscInt q = 0; q < (dim == 2 ? samples : samples * samples); q++) {
     const PetscReal xi[2] = {(PetscReal)(q % samples) / (PetscReal)(samples - 1), (PetscReal)(q / samples) / (PetscReal)(samples - 1)};
@@ -259,8 +259,8 @@ static void WithoutLattice(void **state)
   LatticeSquare(&l, &c, LatticeFlat);
   ContactSurface plain = l.s;
   plain.order = NULL, plain.first = NULL, plain.lattice = NULL;
-  CHECK_CALL(ContactMultiplierCreate(&l.s, PETSC_FALSE, PETSC_FALSE, NULL, &m[0]));
-  CHECK_CALL(ContactMultiplierCreate(&plain, PETSC_FALSE, PETSC_FALSE, NULL, &m[1]));
+  CHECK_CALL(ContactMultiplierCreate(&l.s, PETSC_FALSE, PETSC_FALSE, NULL, NULL, &m[0]));
+  CHECK_CALL(ContactMultiplierCreate(&plain, PETSC_FALSE, PETSC_FALSE, NULL, NULL, &m[1]));
   assert_int_equal(m[0]->row_first[l.s.num_facets], m[1]->row_first[l.s.num_facets]);
   for (PetscInt r = 0; r < m[0]->row_first[l.s.num_facets]; r++) {
     assert_int_equal(m[0]->row_node[r], m[1]->row_node[r]);
@@ -329,7 +329,7 @@ static void HeldEnd(void **state)
     LatticeChain(&l, 2, (PetscReal[]){0, 1, 2}, order);
     CHECK_CALL(ElementGetNodes(p, &point));
     for (PetscInt n = 0; n < l.s.num_nodes; n++) carries[n] = (PetscBool)(n > 0);
-    CHECK_CALL(ContactMultiplierCreate(&l.s, PETSC_FALSE, PETSC_FALSE, carries, &m));
+    CHECK_CALL(ContactMultiplierCreate(&l.s, PETSC_FALSE, PETSC_FALSE, carries, NULL, &m));
     assert_int_equal(m->row_first[1], p);
     for (int q = 0; q <= 10; q++) {
       Closed(p, q / 10., psi);
@@ -542,7 +542,7 @@ static void HeldProducts(void **state)
         if (k != j) one[0][0][j] *= point[k] / (point[k] - point[j]);
     }
     PetscBool *carries = Held(&l, 3);
-    CHECK_CALL(ContactMultiplierCreate(&l.s, PETSC_FALSE, PETSC_FALSE, carries, &m));
+    CHECK_CALL(ContactMultiplierCreate(&l.s, PETSC_FALSE, PETSC_FALSE, carries, NULL, &m));
     assert_int_equal(m->row_first[1], p * p);
     for (int q = 0; q < 36; q++) {
       const PetscReal xi[2] = {q % 6 / 5., q / 6 / 5.};
@@ -634,7 +634,7 @@ static void LatticeMultiplier(const ContactSurface *s, ContactMultiplier *base)
   PetscInt           rows = 0, size = 0;
 
   loose.hang = NULL;
-  CHECK_CALL(ContactMultiplierCreate(&loose, PETSC_FALSE, PETSC_FALSE, NULL, &loosened));
+  CHECK_CALL(ContactMultiplierCreate(&loose, PETSC_FALSE, PETSC_FALSE, NULL, NULL, &loosened));
   *base           = (ContactMultiplier){.num_facets = s->num_facets};
   base->row_first = calloc((size_t)s->num_facets + 1, sizeof(PetscInt));
   base->offset    = calloc((size_t)s->num_facets, sizeof(PetscInt));
@@ -679,7 +679,7 @@ static void InfSupNumbers(void **state)
       if ((k % 4 + k / 4) % 2 == 0) LatticeRefine(&c, k);
     LatticeSquare(&l, &c, LatticeFlat);
     LatticeMultiplier(&l.s, &other);
-    CHECK_CALL(ContactMultiplierCreate(&l.s, PETSC_FALSE, PETSC_FALSE, NULL, &m));
+    CHECK_CALL(ContactMultiplierCreate(&l.s, PETSC_FALSE, PETSC_FALSE, NULL, NULL, &m));
     const PetscReal beta[2] = {InfSup(&l.s, m), InfSup(&l.s, &other)};
     print_message("inf-sup, order %d: macro %.3f, P^T psi %.3f\n", (int)p, (double)beta[0], (double)beta[1]);
     assert_near(beta[0], macro[p - 1], 0.0051);

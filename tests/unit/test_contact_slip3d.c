@@ -357,7 +357,7 @@ static void test_held(void **state)
       side[k] = p->s;
     }
     CHECK_CALL(ContactPairCreate(dim, PETSC_FALSE, &spec, &pair));
-    CHECK_CALL(ContactPairSetCarriers(pair, &a.s, carries));
+    CHECK_CALL(ContactPairSetCarriers(pair, &a.s, carries, NULL));
     ContactPairSetTraction(pair, traction);
     SearchAll(pair, &a, &b, 0.5, 0.1);
     CHECK_CALL(ContactPairKeepPoints(pair, &a.s, &b.s, &failed));

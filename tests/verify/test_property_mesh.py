@@ -1,11 +1,13 @@
 """A damaged .msh ends in exit status 1 with a sentence, not in a signal."""
 import json
+import math
 import subprocess
 
 import pytest
 
 from boxmesh import linspace, write
 from conftest import ROOT
+from contactkit import blocks
 
 
 def damaged(run, tmp_path, line, text):
@@ -70,3 +72,17 @@ Curve Loop(2) = {4, 3, -5, -1}; Plane Surface(2) = {2}; Transfinite Curve {4, 5}
              "material": {"m": {"law": "neo_hookean", "E": 1, "nu": 0.3}}, "boundary": {"flat": {"fix": "xy"}}}
     result = run("s.yml", text=json.dumps(scene))
     assert result.returncode == 1 and "is inverted or degenerate" in result.stderr and "with straight sides it would be" in result.stderr, result
+
+
+def test_refined_near_a_point(run):
+    """As many cells lie within a distance of a point in a mesh that is turned as in one along the axes."""
+    def cells(angle):
+        c, s = math.cos(math.radians(angle)), math.sin(math.radians(angle))
+        spot = {"x": 0.3 * c - 0.5 * s, "y": 0.3 * s + 0.5 * c, "radius": 0.1, "levels": 2}
+        scene = blocks("upper", {name: {"law": "neo_hookean", "E": 1, "nu": 0.3} for name in ("lower", "upper")}, {"bottom": {"fix": "xy"}, "top": {"fix": "xy"}},
+                       {"nl": 4, "ml": 4, "nu": 4, "angle": angle}, {"spot": spot}, {"kind": "tied"})
+        result = run("spot.yml", text=scene)
+        assert result.returncode == 0, result
+        return result.history[-1]["cells"]
+
+    assert cells(30) == cells(0)

@@ -219,6 +219,147 @@ def test_tangent(run, tmp_path, order):
     assert len(error) > 2 and max(error) < 1e-6, error
 
 
+FAN = """// Two blocks on each other between walls x = a y and x = b y.
+Macro Side
+  Point(k) = {a * y, y, 0}; Point(k + 1) = {b * y, y, 0};
+  Line(k) = {k, k + 1}; Transfinite Curve {k} = n + 1;
+Return
+k = 1; y = 1; n = 3;
+Call Side;
+k = 3; y = 2;
+Call Side;
+k = 5; n = 2;
+Call Side;
+k = 7; y = 3;
+Call Side;
+Line(11) = {1, 3};  Line(12) = {2, 4};  Line(13) = {5, 7};  Line(14) = {6, 8};
+Transfinite Curve {11, 12, 13, 14} = 2;
+Curve Loop(1) = {1, 12, -3, -11};  Plane Surface(1) = {1};  Curve Loop(2) = {5, 14, -7, -13};  Plane Surface(2) = {2};
+Transfinite Surface {1, 2};  Recombine Surface {1, 2};
+Physical Surface("lower") = {1};  Physical Surface("upper") = {2};
+Physical Curve("bottom") = {1};  Physical Curve("lower_top") = {3};  Physical Curve("upper_bottom") = {5};  Physical Curve("top") = {7};
+Physical Curve("left_lower") = {11};  Physical Curve("right_lower") = {12};  Physical Curve("left_upper") = {13};  Physical Curve("right_upper") = {14};
+"""
+
+
+@pytest.mark.parametrize("order", [1, 2])
+@pytest.mark.parametrize("nonmortar", ["upper", "lower"])
+@pytest.mark.parametrize("model", ["plane_strain", "axisymmetric"])
+def test_patch_between_oblique_walls(run, tmp_path, model, nonmortar, order):
+    """Blocks that grow about the point where two walls meet at an angle slide along both: the ends of the joint have no multiplier across their own wall."""
+    (tmp_path / "fan.geo").write_text(f"a = {0.2 if model == 'axisymmetric' else -0.5};\nb = 1;\n" + FAN)
+    ends = {name: {"displacement": motion(0.05 * numpy.eye(2))} for name in ("bottom", "top")}
+    scene = blocks(nonmortar, {"lower": RUBBER, "upper": RUBBER}, {**{name: {"fix": "normal"} for name in SIDES[:4]}, **ends}, {}, None, {"kind": "tied"}, order=order)
+    mesh = yaml({"file": str(tmp_path / "fan.geo"), "order": 1})
+    result = run("fan.yml", text=re.sub("mesh: .*", f"mesh: {mesh}", scene).replace("plane_strain", model))
+    assert result.returncode == 0, result
+    state = bulk(result)
+    error = [affine(state, 0.05 * numpy.eye(2)), numpy.ptp(state["stress"], axis=0).max() / 100]
+    print(error)
+    assert max(error) < 1e-10, error
+
+
+def figures(result):
+    """Those that a rotation of the whole scene leaves alone."""
+    assert result.returncode == 0, result
+    row = result.history[-1]
+    vectors = [key[:-2] for key in row if key.startswith(("reaction.", "contact.")) and key.endswith(".x") and ".moment" not in key]
+    forces = [math.hypot(*(row.get(f"{key}.{axis}", 0) for axis in "xyz")) for key in vectors]
+    return numpy.array([row["energy"], row["estimated_error"], *(pair["max_traction"] for pair in result.summary["contact"].values()), *forces])
+
+
+@pytest.mark.parametrize("order, ranks", [(1, 1), (1, 2), (2, 1), (3, 1)])
+@pytest.mark.parametrize("nonmortar", ["upper", "lower"])
+def test_turned_in_the_plane(run, nonmortar, order, ranks):
+    """Blocks pressed between walls, the upper one not as wide, along the axes of the coordinates and turned by 30 degrees: the same."""
+    def turned(angle, ranks):
+        sides = {**{name: {"fix": "normal"} for name in SIDES[:5]}, "top": {"pressure": 10}}
+        return figures(run("turned.yml", text=blocks(nonmortar, {"lower": RUBBER, "upper": RUBBER}, sides, {"nl": 4, "nu": 3, "wu": 0.8, "angle": angle}, None,
+                                                     {"kind": "tied"}, order=order), ranks=ranks))
+
+    one, other = turned(0, 1), turned(30, ranks)
+    print(one, numpy.abs(other / one - 1))
+    assert numpy.abs(other / one - 1).max() < 1e-10
+
+
+def between_walls(tmp_path, pair, to, boundary, order, turn=numpy.eye(3), parts=TWO, **keys):
+    """Boxes whose sides lie along flat walls, turned."""
+    walls = {f"{name}_{side}": {"fix": "normal"} for name in parts for side in ("x0", "x1", "y0", "y1")}
+    boxes(tmp_path / "boxes.msh", parts, lambda x: turn @ to(x))
+    scene = {"mesh": {"file": str(tmp_path / "boxes.msh")}, "model": "3d", "order": order, "body": {name: {"material": "bulk"} for name in parts},
+             "material": {"bulk": RUBBER}, "boundary": {name: side for name, side in {**walls, **boundary}.items() if side},
+             "contact": {"glue": {"nonmortar": pair[0], "mortar": pair[1], "roles": "given", "kind": "tied"}}, "load": {"step": 1}, **keys}
+    return "\n".join(f"{key}: {yaml(value)}" for key, value in scene.items()) + "\n"
+
+
+def pyramid(x):
+    return numpy.array([(x[0] - 0.5) * (1 + x[2]), 1.4 * (x[1] - 0.5) * (1 + x[2]), 1 + x[2]])
+
+
+WAYS = [("upper_z0", "lower_z1"), ("lower_z1", "upper_z0")]
+
+
+@pytest.mark.parametrize("order, hangs", [(1, False), (1, True), (2, False)])
+@pytest.mark.parametrize("pair", WAYS)
+def test_patch_in_a_pyramid(run, tmp_path, pair, order, hangs):
+    """Four walls that meet in a point, none at right angles to another: corners of the joint are held by two."""
+    near = {"refine": {"spot": {"boundary": pair[0], "x": -0.9, "y": -1.3, "z": 2, "levels": 1}}} if hangs else {}
+    ends = {name: {"displacement": motion(0.05 * numpy.eye(3))} for name in ("lower_z0", "upper_z1")}
+    result = run("pyramid.yml", text=between_walls(tmp_path, pair, pyramid, ends, order, **near))
+    assert result.returncode == 0, result
+    state = bulk(result)
+    error = [affine(state, 0.05 * numpy.eye(3)), numpy.ptp(state["stress"], axis=0).max() / 100]
+    print(error)
+    assert max(error) < 1e-10, error
+
+
+def test_patch_of_three_in_a_pyramid(run, tmp_path):
+    """Nodes where pairs meet, which carry nothing, beside nodes on walls that are not at right angles."""
+    parts = {"top": Box((0, 0, 1), (1, 1, 1), (3, 2, 1)), "one": Box((0, 0, 0), (0.45, 1, 1), (2, 3, 2)), "two": Box((0.45, 0, 0), (0.55, 1, 1), (1, 1, 1))}
+    sides = {name: {"displacement": motion(0.05 * numpy.eye(3))} for name in ("top_z1", "one_z0", "two_z0")}
+    pairs = [("one_z1", "top_z0"), ("two_z1", "top_z0"), ("two_x0", "one_x1")]
+    glue = {"contact": {f"glue{i}": {"nonmortar": one, "mortar": two, "roles": "given", "kind": "tied"} for i, (one, two) in enumerate(pairs)}}
+    text = between_walls(tmp_path, pairs[0], pyramid, {**sides, "one_x1": None, "two_x0": None}, 2, parts=parts, **glue)
+    result = run("three.yml", text=text)
+    assert result.returncode == 0, result
+    error = affine(bulk(result), 0.05 * numpy.eye(3))
+    print(error)
+    assert error < 1e-9, error
+
+
+NARROW = {"lower": Box((0, 0, 0), (1, 1, 1), (2, 2, 1)), "upper": Box((0, 0, 1), (0.7, 1, 1), (2, 1, 1))}
+a, b = math.radians(40), math.radians(25)
+SKEW = numpy.array([[1, 0, 0], [0, math.cos(a), -math.sin(a)], [0, math.sin(a), math.cos(a)]]) @ [[math.cos(b), -math.sin(b), 0], [math.sin(b), math.cos(b), 0], [0, 0, 1]]
+
+
+@pytest.mark.parametrize("order", [1, 2])
+@pytest.mark.parametrize("pair", WAYS)
+def test_turned_in_space(run, tmp_path, pair, order):
+    """The same in space, with three walls and a side that ends within facets."""
+    def turned(turn):
+        traction = {"traction": dict(zip("xyz", map(float, turn @ [1, 2, -6])))}
+        text = between_walls(tmp_path, pair, lambda x: x, {"lower_x1": None, "upper_x1": None, "lower_z0": {"fix": "normal"}, "upper_z1": traction}, order, turn, NARROW)
+        return figures(run("turned.yml", text=text))
+
+    one, other = turned(numpy.eye(3)), turned(SKEW)
+    print(one, numpy.abs(other / one - 1))
+    assert numpy.abs(other / one - 1).max() < 1e-10
+
+
+@pytest.mark.parametrize("options", [[], ["-solve_symmetric", "0"]])
+def test_tangent_at_oblique_walls(run, tmp_path, options):
+    """Gaps over a bent interface, a side that ends within facets and nodes that are held across the axes: the derivative is exact."""
+    def bulged(x):
+        return pyramid(x) * (1 + (0.04 * math.sin(4 * x[0] + 3 * x[1]) if x[2] == 1 else 0))
+
+    ends = {"lower_x1": None, "upper_x1": None, "lower_z0": {"fix": "xyz"}, "upper_z1": {"traction": {"x": 3, "y": 4, "z": -3}}}
+    result = run("tangent.yml", "-snes_test_jacobian", *options, text=between_walls(tmp_path, WAYS[1], bulged, ends, 1, SKEW, NARROW))
+    assert result.returncode == 0, result
+    error = [float(e) for e in re.findall(r"J - Jfd\|\|_F/\|\|J\|\|_F = (\S+),", result.stdout)]
+    print(error)
+    assert len(error) > 2 and max(error) < 1e-6, error
+
+
 def glued(pair=None, boundary=None, **keys):
     boundary = boundary or {"bottom": {"fix": "xy"}, "top": {"displacement": {"x": 0.1, "y": -0.1}}}
     return blocks("upper", {"lower": RUBBER, "upper": RUBBER}, boundary, {"nl": 4, "nu": 3}, None, {"kind": "tied", **(pair or {})}, **keys)

@@ -191,49 +191,70 @@ static PetscReal Positive_Private(PetscInt num, const PetscReal weight[])
   return sum;
 }
 
-/* Functions of nodes that carry nothing go to the others; their rows go. */
-static PetscErrorCode GroupRemove_Private(MultiplierWork *w, const Group *g, PetscInt degree)
+/* Functions of nodes that give go to those that take. */
+static PetscErrorCode Give_Private(MultiplierWork *w, const Group *g, PetscInt degree, const PetscBool gives[], const PetscBool takes[])
 {
-  PetscInt   kept = 0;
-  PetscBool *carries;
   PetscReal *W;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(g->num, &carries));
-  for (PetscInt i = 0; i < g->num; i++) kept += carries[i] = w->carries[g->node[i]];
-  PetscCall(PetscCalloc1(kept ? g->num * g->num : 0, &W));
-  if (kept && !g->hangs) PetscCall(ContactExtrapolateLattice(w->s->dim, w->s->order ? w->s->order[g->facet[0]] : 1, degree, carries, W));
-  if (kept && g->hangs) PetscCall(ContactExtrapolateNodes(w->s, g->num_facets, g->facet, degree, g->num, g->node, carries, W));
-  if (kept) PetscCall(ContactDonorsKeep(w->donors + g->facet[0], g->num, g->node, carries, W));
+  PetscCall(PetscCalloc1(g->num * g->num, &W));
+  if (!g->hangs) PetscCall(ContactExtrapolateLattice(w->s->dim, w->s->order ? w->s->order[g->facet[0]] : 1, degree, takes, W));
+  if (g->hangs) PetscCall(ContactExtrapolateNodes(w->s, g->num_facets, g->facet, degree, g->num, g->node, takes, W));
+  for (PetscInt e = 0; e < g->num; e++)
+    if (!gives[e]) PetscCall(PetscArrayzero(W + g->num * e, g->num));
+  PetscCall(ContactDonorsKeep(w->donors + g->facet[0], g->num, g->node, takes, W));
+  for (PetscInt f = 0; f < g->num_facets; f++) {
+    const PetscInt  num = ContactLatticeSize(w->s, g->facet[f]);
+    MultiplierRows *r   = w->rows + g->facet[f];
+
+    for (PetscInt k = 0; k < g->num * g->num; k++) {
+      const PetscInt  e = k % g->num, i = k / g->num;
+      const PetscReal weight = W[g->num * e + i], positive = weight > 0 ? weight / Positive_Private(g->num, W + g->num * e) : 0;
+
+      for (PetscInt b = 0; weight != 0 && b < num; b++) {
+        r->T[num * i + b] += weight * r->T[num * e + b];
+        r->B[num * i + b] += positive * r->B[num * e + b];
+      }
+    }
+  }
+  PetscCall(PetscFree(W));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Functions of nodes that carry nothing go to the others, first of those that do not keep theirs; their rows go. */
+static PetscErrorCode GroupRemove_Private(MultiplierWork *w, const Group *g, const PetscInt degree[2])
+{
+  PetscBool *gives, *takes;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc2(g->num, &gives, g->num, &takes));
+  for (int late = 0; late <= w->late; late++) {
+    PetscInt givers = 0, takers = 0;
+
+    for (PetscInt i = 0; i < g->num; i++) {
+      const PetscBool carries = w->carries[g->node[i]], keeps = (PetscBool)(w->keeps && w->keeps[g->node[i]]);
+      givers += gives[i] = (PetscBool)(!carries && keeps == (PetscBool)late);
+      takers += takes[i] = (PetscBool)(late ? carries && !keeps : carries || keeps);
+    }
+    if (givers && takers) PetscCall(Give_Private(w, g, degree[late], gives, takes));
+  }
   for (PetscInt f = 0; f < g->num_facets; f++) {
     const PetscInt  num = ContactLatticeSize(w->s, g->facet[f]);
     MultiplierRows *r   = w->rows + g->facet[f];
 
     r->num = 0;
-    for (PetscInt i = 0; i < g->num; i++) {
-      if (!carries[i]) continue;
-      for (PetscInt e = 0; e < g->num; e++) {
-        const PetscReal weight = carries[e] ? 0 : W[g->num * e + i], positive = weight > 0 ? weight / Positive_Private(g->num, W + g->num * e) : 0;
-
-        for (PetscInt b = 0; weight != 0 && b < num; b++) {
-          r->T[num * i + b] += weight * r->T[num * e + b];
-          r->B[num * i + b] += positive * r->B[num * e + b];
-        }
-      }
-    }
     for (PetscInt i = 0; i < g->num; i++) { /* rows that stay, in place: the place is never behind the row */
-      if (!carries[i]) continue;
+      if (!w->carries[g->node[i]] && (w->late || !w->keeps || !w->keeps[g->node[i]])) continue;
       PetscCall(PetscArraymove(r->T + num * r->num, r->T + num * i, num));
       PetscCall(PetscArraymove(r->B + num * r->num, r->B + num * i, num));
       r->node[r->num++] = g->node[i];
     }
   }
-  PetscCall(PetscFree(carries));
-  PetscCall(PetscFree(W));
+  PetscCall(PetscFree2(gives, takes));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ContactMultiplierGroup(MultiplierWork *w, PetscInt num_facets, const PetscInt facet[], PetscInt degree, PetscBool *held)
+PetscErrorCode ContactMultiplierGroup(MultiplierWork *w, PetscInt num_facets, const PetscInt facet[], const PetscInt degree[2], PetscBool *held)
 {
   PetscBool regular = PETSC_FALSE;
   Group     g;

@@ -43,9 +43,10 @@ typedef struct ContactMultiplier {
   PetscReal *donor_weight; /* sum 1 at a node */
 } ContactMultiplier;
 
-/* Multiplier functions of a surface from its reference positions X (x is not looked at). carries[num_nodes] (NULL: all): the true node has a multiplier.
-   Not collective. */
-PetscErrorCode ContactMultiplierCreate(const ContactSurface *, PetscBool axisymmetric, PetscBool standard, const PetscBool carries[], ContactMultiplier **);
+/* Multiplier functions of a surface from its reference positions X (x is not looked at). carries[num_nodes] (NULL: all): the true node has a multiplier;
+   keeps[num_nodes] (NULL: none): as in ContactPairSetCarriers. Not collective. */
+PetscErrorCode ContactMultiplierCreate(const ContactSurface *, PetscBool axisymmetric, PetscBool standard, const PetscBool carries[], const PetscBool keeps[],
+                                       ContactMultiplier **);
 PetscErrorCode ContactMultiplierDestroy(ContactMultiplier **);
 
 /* lattice.c: number of nodes of a facet's lattice; M[num][num] = int N_a N_b (NULL: not wanted), D[num] = int N_a of a facet in the reference measure. */
@@ -79,6 +80,8 @@ typedef struct {
   const ContactSurface *s;
   PetscBool             axisymmetric, standard;
   const PetscBool      *carries; /* [num_nodes] */
+  const PetscBool      *keeps;   /* [num_nodes] or NULL */
+  int                   late;    /* 1: those that give late have given, too */
   PetscInt             *root;    /* [num_facets] ContactFacetGroups */
   PetscBool            *exact;   /* [num_facets] P^T psi_L */
   PetscInt             *place;   /* [num_nodes] -1; row of a true node in the group at hand */
@@ -87,8 +90,8 @@ typedef struct {
   MultiplierDonors     *donors;  /* [num_facets] */
 } MultiplierWork;
 
-/* dual.c: rows of facets whose functions are made together, afresh; held: some of their nodes carry nothing. */
-PetscErrorCode ContactMultiplierGroup(MultiplierWork *, PetscInt num_facets, const PetscInt facet[], PetscInt degree, PetscBool *held);
+/* dual.c: rows of facets whose functions are made together, afresh, with these degrees of nodes that give first and late; held: some carry nothing. */
+PetscErrorCode ContactMultiplierGroup(MultiplierWork *, PetscInt num_facets, const PetscInt facet[], const PetscInt degree[2], PetscBool *held);
 
 /* donors.c: keeps the weights W[n][n] of extrapolate.c for n nodes; the weights of all facets, by nodes. */
 PetscErrorCode ContactDonorsKeep(MultiplierDonors *, PetscInt n, const PetscInt node[], const PetscBool carries[], const PetscReal W[]);

@@ -99,30 +99,36 @@ static PetscBool IsLight_Private(const MultiplierWork *w, PetscInt num_facets, c
   return PETSC_FALSE;
 }
 
-/* All groups: facets[start[g] .. start[g+1]). Where int psi_j beside held nodes comes out too small, again with a lower degree. */
+/* All groups: facets[start[g] .. start[g+1]). Where int psi_j beside held nodes comes out too small, again with a lower degree: of the nodes that give first,
+   then of those that give late. */
 static PetscErrorCode GroupsMake_Private(MultiplierWork *w, PetscInt num, const PetscInt start[], const PetscInt facets[], const PetscReal whole[])
 {
-  PetscInt *degree;
-  PetscBool held, again = PETSC_TRUE;
+  PetscInt(*degree)[2];
+  PetscBool held, again;
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(num, &degree));
-  for (PetscInt g = 0; g < num; g++) {
-    degree[g] = MORTISE_MAX_ORDER;
-    for (PetscInt i = start[g]; i < start[g + 1]; i++) degree[g] = PetscMin(degree[g], (w->s->order ? w->s->order[facets[i]] : 1) - 1);
-    PetscCall(ContactMultiplierGroup(w, start[g + 1] - start[g], facets + start[g], degree[g], &held));
-    for (PetscInt i = start[g]; i < start[g + 1]; i++) PetscCall(AddWeights_Private(w, facets[i], 1));
-    if (!held) degree[g] = 0;
-  }
-  while (again) {
-    again = PETSC_FALSE;
+  for (w->late = 0; w->late < (w->keeps ? 2 : 1); w->late++) {
+    PetscCall(PetscArrayzero(w->weight, w->s->num_nodes));
     for (PetscInt g = 0; g < num; g++) {
-      if (degree[g] == 0 || !IsLight_Private(w, start[g + 1] - start[g], facets + start[g], whole)) continue;
-      for (PetscInt i = start[g]; i < start[g + 1]; i++) PetscCall(AddWeights_Private(w, facets[i], -1));
-      PetscCall(ContactMultiplierGroup(w, start[g + 1] - start[g], facets + start[g], --degree[g], &held));
+      PetscInt *own = &degree[g][w->late];
+      *own          = MORTISE_MAX_ORDER;
+      for (PetscInt i = start[g]; i < start[g + 1]; i++) *own = PetscMin(*own, (w->s->order ? w->s->order[facets[i]] : 1) - 1);
+      PetscCall(ContactMultiplierGroup(w, start[g + 1] - start[g], facets + start[g], degree[g], &held));
       for (PetscInt i = start[g]; i < start[g + 1]; i++) PetscCall(AddWeights_Private(w, facets[i], 1));
-      again = PETSC_TRUE;
+      if (!held) *own = 0;
     }
+    do {
+      again = PETSC_FALSE;
+      for (PetscInt g = 0; g < num; g++) {
+        if (degree[g][w->late] == 0 || !IsLight_Private(w, start[g + 1] - start[g], facets + start[g], whole)) continue;
+        for (PetscInt i = start[g]; i < start[g + 1]; i++) PetscCall(AddWeights_Private(w, facets[i], -1));
+        --degree[g][w->late];
+        PetscCall(ContactMultiplierGroup(w, start[g + 1] - start[g], facets + start[g], degree[g], &held));
+        for (PetscInt i = start[g]; i < start[g + 1]; i++) PetscCall(AddWeights_Private(w, facets[i], 1));
+        again = PETSC_TRUE;
+      }
+    } while (again);
   }
   PetscCall(PetscFree(degree));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -216,9 +222,10 @@ static PetscErrorCode Pack_Private(const MultiplierWork *w, ContactMultiplier **
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ContactMultiplierCreate(const ContactSurface *s, PetscBool axisymmetric, PetscBool standard, const PetscBool carries[], ContactMultiplier **out)
+PetscErrorCode ContactMultiplierCreate(const ContactSurface *s, PetscBool axisymmetric, PetscBool standard, const PetscBool carries[], const PetscBool keeps[],
+                                       ContactMultiplier **out)
 {
-  MultiplierWork w = {.s = s, .axisymmetric = axisymmetric, .standard = standard};
+  MultiplierWork w = {.s = s, .axisymmetric = axisymmetric, .standard = standard, .keeps = keeps};
   PetscBool     *own;
   PetscReal     *whole;
 

@@ -13,7 +13,7 @@ PetscErrorCode ContactRayTopology(ContactPair pair, const ContactSurface *s)
   PetscCall(PetscCalloc1(s->dim * s->num_nodes, &pair->normal));
   PetscCall(ContactDirectionTopology(pair->ray, s, pair->friction));
   ContactDirections(pair->ray, s);
-  if (!pair->multiplier) PetscCall(ContactMultiplierCreate(s, pair->axisymmetric, pair->standard, NULL, &pair->multiplier));
+  if (!pair->multiplier) PetscCall(ContactMultiplierCreate(s, pair->axisymmetric, pair->standard, NULL, NULL, &pair->multiplier));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -41,12 +41,12 @@ const PetscInt *ContactPairGetMortarParents(ContactPair pair)
   return pair->ray->mortar_parent;
 }
 
-PetscErrorCode ContactPairSetCarriers(ContactPair pair, const ContactSurface *nonmortar, const PetscBool carries[])
+PetscErrorCode ContactPairSetCarriers(ContactPair pair, const ContactSurface *nonmortar, const PetscBool carries[], const PetscBool keeps[])
 {
   PetscFunctionBegin;
   pair->state.stands = PETSC_FALSE;
   PetscCall(ContactMultiplierDestroy(&pair->multiplier));
-  PetscCall(ContactMultiplierCreate(nonmortar, pair->axisymmetric, pair->standard, carries, &pair->multiplier));
+  PetscCall(ContactMultiplierCreate(nonmortar, pair->axisymmetric, pair->standard, carries, keeps, &pair->multiplier));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
