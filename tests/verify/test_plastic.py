@@ -1,6 +1,7 @@
 """Finite elasto-plasticity (law j2): bars (O-30), a tube expanded and released (O-32), the necking bar (O-33), ranks, load steps that are cut."""
 import json
 import math
+import pathlib
 import re
 
 import numpy
@@ -301,3 +302,23 @@ def test_flow_error_does_not_feel_rotations(run, tmp_path):
         assert result.returncode == 0 and result.summary["load_steps"] == 1, result
         told.append(result.summary["flow_error"])
     assert told[0] > 1e-4 and told[1] == pytest.approx(told[0], rel=1e-6), told
+
+
+INDENT = """
+mesh: {file: %s, order: 2}
+model: plane_strain
+order: 2
+body: {block: {material: m}, punch: {material: r, motion: {y: "-0.1*t"}}}
+material: {r: {law: rigid}, m: {law: j2, E: 1000, nu: 0.3, yield: 2, hardening: 0}}
+boundary: {bottom: {fix: y}, middle: {fix: x}}
+contact: {c: {nonmortar: top, mortar: skin}}
+load: {step: 0.1}
+adapt: {tolerance: 0.8, repeat: path}
+"""
+
+
+def test_upright_side_of_a_punch(run):
+    """It is over a node of the block, and the gap there is open, while the node before it bears: forces of ends that are held do not jump (frozen_segmentation)."""
+    result = run("indent.yml", text=INDENT % (pathlib.Path(__file__).resolve().parent / "scenes" / "indent.geo"))
+    print(result.summary["newton_iterations"], result.summary["reaction"])
+    assert result.solved and result.summary["t"] == 1 and result.summary["step_cuts"] == 0, result
