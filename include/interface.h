@@ -241,8 +241,11 @@ void           InterfaceKeepWeights(Interface);
 PetscErrorCode InterfaceCarryForces(Interface, Vec dx, PetscBool *changed);
 /* Pairs that have borne nothing yet. */
 PetscErrorCode InterfaceFindUntouched(Interface, uint64_t *pairs);
-/* Are there facets under pressure whose forces frozen segmentation would change? */
-PetscErrorCode InterfaceMayFreezeSegmentation(Interface, PetscBool *yes);
+/* At each iterate of a solve, begin: the first one. Does an end of the mortar side lie within a facet that bears or beyond it? Not collective. */
+void InterfaceWatchEnds(Interface, PetscBool begin);
+/* Are there facets under pressure whose forces frozen segmentation would change? In the plane, unless any is set: where in this solve an end of the mortar side
+   went over the end of the facet and came back. Collective. */
+PetscErrorCode InterfaceMayFreezeSegmentation(Interface, PetscBool any, PetscBool *yes);
 /* As ProblemFindSlide, for a step with this increment. */
 PetscErrorCode InterfaceFindSlide(Interface, const PetscReal increment[], Vec force, PetscReal *excess);
 /* A number that tells active sets and their states apart, the same on every rank. Collective. */

@@ -174,8 +174,8 @@ PetscErrorCode ProblemRightSide(Problem, Vec r, Vec lift, Vec rhs);
 PetscErrorCode ProblemSwitchActiveSet(Problem, Vec dx, Vec rhs, PetscInt *changed);
 /* ---- what a form may be chosen by, at the last residual. All collective ---- */
 
-/* Are there facets under pressure whose forces frozen segmentation would change? Under viscous regularisation: no. */
-PetscErrorCode ProblemMayFreezeSegmentation(Problem, PetscBool *yes);
+/* As InterfaceMayFreezeSegmentation. Under viscous regularisation: no. */
+PetscErrorCode ProblemMayFreezeSegmentation(Problem, PetscBool any, PetscBool *yes);
 /* At the start of a step, where dx is the linear step there: would most points on their yield surface leave it? */
 PetscErrorCode ProblemUnloads(Problem, Vec x, Vec dx, PetscBool *yes);
 /* By how much (unit: length) the solution dx of the linear step slides a body that only contact holds too far along the surface, the pair with the largest

@@ -25,7 +25,7 @@ PetscErrorCode InterfaceCarryForces(Interface p, Vec dx, PetscBool *changed)
     const Surface *s = &c->side[0];
     for (PetscInt n = 0; n < s->num_own && !c->tie; ++n) {
       const PetscInt j = s->own[n];
-      if (c->zlocal[j] < 0 || !(c->weight[j] > c->before[j])) continue;
+      if (c->zlocal[j] < 0 || !(c->weight[j] > PetscMax(0, c->before[j]))) continue; /* that of a sliver may be below 0 by round-off */
       for (PetscInt k = 0; k < c->num; ++k) {
         *changed = (PetscBool)(*changed || change[c->zlocal[j] + k] != 0);
         change[c->zlocal[j] + k] *= c->before[j] / c->weight[j];

@@ -93,27 +93,49 @@ PetscErrorCode InterfaceHoldsLines(Interface p, PetscBool *holds)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Does one of this rank's facets bear whose segmentation is not frozen yet but could be? */
-static PetscBool Movable_Private(const Contact *c)
+static PetscBool Bears_Private(const Contact *c, const ContactFacet *e)
+{
+  for (PetscInt k = 0; k < e->num_rows; ++k)
+    if (c->active[e->nodes[k]]) return PETSC_TRUE;
+  return PETSC_FALSE;
+}
+
+void InterfaceWatchEnds(Interface p, PetscBool begin)
+{
+  for (PetscInt i = 0; i < p->num_contacts; ++i) {
+    Contact *c = &p->contacts[i];
+    for (PetscInt f = 0; f < c->num_facets; ++f) {
+      const ContactFacet *e    = &c->facets[f];
+      EndWatch           *w    = &c->watch[e->facet];
+      const PetscBool     over = (PetscBool)(!begin && w->known && w->ends != e->ends && Bears_Private(c, e));
+
+      *w = (EndWatch){.known    = PETSC_TRUE,
+                      .ends     = e->ends,
+                      .passed   = (PetscBool)(over || (w->passed && !begin)),
+                      .returned = (PetscBool)(!begin && (w->returned || (over && w->passed)))};
+    }
+  }
+}
+
+/* Does one of this rank's facets bear whose segmentation is not frozen yet but could be? In the plane: where an end came back, or any. */
+static PetscBool Movable_Private(const Contact *c, PetscBool any)
 {
   for (PetscInt f = 0; f < c->num_facets; ++f) {
     const ContactFacet *e = &c->facets[f];
-    if (e->push || (c->side[0].dim == 2 ? !(e->ends && c->spec->self) : c->side[0].order[e->facet] == 1)) continue;
-    for (PetscInt k = 0; k < e->num_rows; ++k) {
-      if (c->active[e->nodes[k]]) return PETSC_TRUE;
-    }
+    if (e->push || (c->side[0].dim == 2 ? !(any ? e->ends : c->watch[e->facet].returned) : c->side[0].order[e->facet] == 1)) continue;
+    if (Bears_Private(c, e)) return PETSC_TRUE;
   }
   return PETSC_FALSE;
 }
 
-PetscErrorCode InterfaceMayFreezeSegmentation(Interface p, PetscBool *yes)
+PetscErrorCode InterfaceMayFreezeSegmentation(Interface p, PetscBool any, PetscBool *yes)
 {
   PetscBool mine = PETSC_FALSE;
 
   PetscFunctionBegin;
   *yes = PETSC_FALSE;
   if (p->spec->kinematics == KINEMATICS_SMALL) PetscFunctionReturn(PETSC_SUCCESS);
-  for (PetscInt i = 0; i < p->num_contacts && !mine; ++i) mine = Movable_Private(&p->contacts[i]);
+  for (PetscInt i = 0; i < p->num_contacts && !mine; ++i) mine = Movable_Private(&p->contacts[i], any);
   PetscCallMPI(MPI_Allreduce(&mine, yes, 1, COMPAT_MPI_BOOL, MPI_LOR, p->comm));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -157,6 +157,11 @@ typedef struct {
   TieFunctions *functions;
 } Tie;
 
+/* Of a nonmortar facet, plane: does the mortar side end within it, and did that change in this solve while it bore, once and again? (force.c) */
+typedef struct {
+  PetscBool known, ends, passed, returned;
+} EndWatch;
+
 typedef struct {
   const ContactSpec   *spec;
   const ContactLawOps *law;
@@ -190,6 +195,7 @@ typedef struct {
   PetscReal           *all_real[2];              /* values gathered to all, see gather.c */
   int8_t              *all_active;
   ContactView          all;
+  EndWatch            *watch;      /* [num_facets] in the solve at hand */
   PetscReal            distance;   /* search distance */
   PetscInt             num_facets; /* results of the last evaluation */
   const ContactFacet  *facets;

@@ -14,11 +14,11 @@ PetscErrorCode ProblemSetViscosity(Problem p, PetscReal rate, Vec from)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ProblemMayFreezeSegmentation(Problem p, PetscBool *yes)
+PetscErrorCode ProblemMayFreezeSegmentation(Problem p, PetscBool any, PetscBool *yes)
 {
   PetscFunctionBegin;
   *yes = PETSC_FALSE;
-  if (!p->viscous) PetscCall(InterfaceMayFreezeSegmentation(p->interface, yes));
+  if (!p->viscous) PetscCall(InterfaceMayFreezeSegmentation(p->interface, any, yes));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

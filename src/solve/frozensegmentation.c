@@ -1,6 +1,6 @@
-/* Modifier: where a crease of the mortar side (in the plane: the end of a surface that meets itself) comes to lie on a side of a nonmortar facet,
-   derivatives of weighted gaps jump (docs/theory.md, after (5.8)), and residuals come and go. From then on the segmentation is frozen in forces, which do
-   not jump then; on: from the first iterate on. */
+/* Modifier: where a crease of the mortar side (in the plane: its end, with an open gap there) comes to lie on a side of a nonmortar facet, derivatives of
+   weighted gaps jump (docs/theory.md, after (5.8)), and residuals come and go; in the plane the end goes over that side and comes back. From then on the
+   segmentation is frozen in forces, which do not jump then; on: from the first iterate on. */
 #include "solveimpl.h"
 
 /* Does the residual come and go with the same active set? Near the solution it should not grow at all, elsewhere not
@@ -29,9 +29,10 @@ static PetscErrorCode Verdict_Private(Solver s, Iterate *it, PetscBool always, P
   PetscBool yes = always;
 
   PetscFunctionBegin;
+  InterfaceWatchEnds(ProblemInterface(s->problem), (PetscBool)(it->number <= 1)); /* the first iterate carries the whole prescribed motion */
   if (s->form.frozen_segmentation || (it->number == 0 && !always)) PetscFunctionReturn(PETSC_SUCCESS);
   if (!always) PetscCall(ComesAndGoes_Private(s, it, &yes));
-  if (yes) PetscCall(ProblemMayFreezeSegmentation(s->problem, acts));
+  if (yes) PetscCall(ProblemMayFreezeSegmentation(s->problem, always, acts));
   if (!*acts) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscInfo(s->snes, "residuals come and go: the segmentation of mortar sides is frozen in forces from here on\n"));
   s->form.frozen_segmentation = PETSC_TRUE;

@@ -670,6 +670,28 @@ def test_wedge_that_sticks_in_a_valley(run, order):
     assert pressure < 0.9 and sticks.summary["estimated_error"] < 0.15
 
 
+CRADLE = """
+mesh: {file: %s, order: 3}
+model: plane_strain
+order: 2
+body: {disc: {material: rubber}, valley: {material: rigid}, plate: {material: rigid, motion: {y: "-0.35*t"}}}
+material: {rubber: {law: neo_hookean, E: 1, nu: 0.3}, rigid: {law: rigid}}
+contact: {a: {nonmortar: rim, mortar: faces, friction: 0.3}, b: {nonmortar: rim, mortar: under, friction: 0.3}}
+load: {step: 0.1}
+"""
+
+
+def test_node_over_the_corner_of_a_valley(run):
+    """Each facet beside it is covered by one flank up to its end, open there: forces of ends that are held do not jump (frozen_segmentation), and a disc is two of its halves."""
+    text = CRADLE % (SCENES / "cradle.geo")
+    whole = run("cradle.yml", text=text)
+    half = run("half.yml", "-mesh_parameter_half", 1, text=text + "boundary: {middle: {fix: x}}\n")
+    print(whole.summary["energy"], half.summary["energy"], whole.summary["newton_iterations"])
+    assert whole.returncode == half.returncode == 0 and whole.summary["step_cuts"] == 0, (whole, half)
+    assert whole.summary["energy"] == pytest.approx(2 * half.summary["energy"], rel=1e-5)
+    assert whole.summary["modifiers"]["frozen_segmentation"] == 1, whole
+
+
 OBLIQUE = """
 mesh: {file: %s, order: 1%s}
 model: %s

@@ -1,6 +1,7 @@
 """Finite elasto-plasticity (law j2): bars (O-30), a tube expanded and released (O-32), the necking bar (O-33), ranks, load steps that are cut."""
 import json
 import math
+import pathlib
 import re
 
 import numpy
@@ -10,6 +11,7 @@ from boxmesh import linspace, write
 from contactkit import is_quadratic, steps
 from stripkit import strip
 
+SCENES = pathlib.Path(__file__).resolve().parent / "scenes"
 SET_A = {"law": "j2", "volumetric": "simo", "E": 206.9e3, "nu": 0.29, "yield": 450, "hardening": 129.24}
 SET_B = {"law": "j2", "volumetric": "simo", "mu": 80e3, "kappa": 170e3, "yield": 205, "hardening": 1000}
 
@@ -301,3 +303,29 @@ def test_flow_error_does_not_feel_rotations(run, tmp_path):
         assert result.returncode == 0 and result.summary["load_steps"] == 1, result
         told.append(result.summary["flow_error"])
     assert told[0] > 1e-4 and told[1] == pytest.approx(told[0], rel=1e-6), told
+
+
+INDENT = """
+mesh: {file: %s, order: 2}
+model: plane_strain
+order: 2
+body: {block: {material: m}, punch: {material: r, motion: {y: "-0.1*t"}}}
+material: {r: {law: rigid}, m: {law: j2, E: 1000, nu: 0.3, yield: 2, hardening: 0}}
+boundary: {bottom: {fix: y}, middle: {fix: x}}
+contact: {c: {nonmortar: top, mortar: skin}}
+load: {step: 0.1}
+adapt: {tolerance: 0.8, repeat: path}
+"""
+
+
+def test_upright_side_of_a_punch(run):
+    """It is over a node of the block, and the gap there is open, while the node before it bears: forces of ends that are held do not jump (frozen_segmentation)."""
+    result = run("indent.yml", text=INDENT % (SCENES / "indent.geo"))
+    print(result.summary["newton_iterations"], result.summary["reaction"])
+    assert result.solved and result.summary["t"] == 1 and result.summary["step_cuts"] == 0, result
+
+
+def test_node_that_is_left(run):
+    """A sliver over a node has a weight below 0 by round-off, and none after the step: its force is not carried over (carried_force), or the residual is no number."""
+    result = run("indent.yml", "-order", 3, "-newton_frozen_segmentation", "off", "-info", text=INDENT % (SCENES / "indent.geo"))
+    assert "is no number" not in result.stdout

@@ -195,13 +195,11 @@ static void LeaveOut_Private(ContactPair pair, PetscInt facet)
 }
 
 /* Are lines of the mortar side held in the forces? In space where it ends within the facet, and creases where the
-   segmentation is frozen; in the plane, where creases are met exactly, ends of a surface that meets itself where it is
-   frozen: there the ends of both sides come to lie on each other. Elsewhere a mortar end within a facet moves on, and what
-   its motion does to a gap that is open there belongs to the forces: 8 % of them on a coarse mesh. */
+   segmentation is frozen; in the plane, where creases are met exactly, ends where it is frozen. */
 static PetscBool Freezes_Private(const ContactPair pair, const RayWork w)
 {
   if (pair->held) return PETSC_FALSE;
-  if (w->facet.D == 2) return (PetscBool)(w->ends && pair->frozen_segmentation && pair->precedence);
+  if (w->facet.D == 2) return (PetscBool)(w->ends && pair->frozen_segmentation);
   return (PetscBool)(w->ends || (pair->frozen_segmentation && w->facet.s.order > 1));
 }
 
