@@ -15,7 +15,7 @@ static PetscReal Decimal_Private(PetscReal t)
 
   (void)snprintf(text, sizeof(text), "%.12g", (double)t);
   decimal = strtod(text, NULL);
-  return PetscAbsReal(decimal - t) <= 1e-13 * PetscAbsReal(t) ? decimal : t;
+  return PetscAbsReal(decimal - t) <= 2 * PETSC_MACHINE_EPSILON * PetscAbsReal(t) ? decimal : t;
 }
 
 PetscReal PathStepEnd(const SceneData *data, PetscReal t, PetscReal dt)
