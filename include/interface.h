@@ -243,8 +243,8 @@ PetscErrorCode InterfaceCarryForces(Interface, Vec dx, PetscBool *changed);
 PetscErrorCode InterfaceFindUntouched(Interface, uint64_t *pairs);
 /* At each iterate of a solve, begin: the first one. Does an end of the mortar side lie within a facet that bears or beyond it? Not collective. */
 void InterfaceWatchEnds(Interface, PetscBool begin);
-/* Are there facets under pressure whose forces frozen segmentation would change? In the plane, unless any is set: where in this solve an end of the mortar side
-   went over the end of the facet and came back. Collective. */
+/* Are there facets under pressure whose forces frozen segmentation would change? In the plane, unless any is set or the surface may meet itself: where in this
+   solve an end of the mortar side went over the end of the facet and came back. Collective. */
 PetscErrorCode InterfaceMayFreezeSegmentation(Interface, PetscBool any, PetscBool *yes);
 /* As ProblemFindSlide, for a step with this increment. */
 PetscErrorCode InterfaceFindSlide(Interface, const PetscReal increment[], Vec force, PetscReal *excess);

@@ -117,12 +117,13 @@ void InterfaceWatchEnds(Interface p, PetscBool begin)
   }
 }
 
-/* Does one of this rank's facets bear whose segmentation is not frozen yet but could be? In the plane: where an end came back, or any. */
+/* Does one of this rank's facets bear whose segmentation is not frozen yet but could be? In the plane: where an end came back, or any, as of surfaces that meet
+   themselves, where the ends of both sides come to lie on each other. */
 static PetscBool Movable_Private(const Contact *c, PetscBool any)
 {
   for (PetscInt f = 0; f < c->num_facets; ++f) {
     const ContactFacet *e = &c->facets[f];
-    if (e->push || (c->side[0].dim == 2 ? !(any ? e->ends : c->watch[e->facet].returned) : c->side[0].order[e->facet] == 1)) continue;
+    if (e->push || (c->side[0].dim == 2 ? !(any || c->spec->self ? e->ends : c->watch[e->facet].returned) : c->side[0].order[e->facet] == 1)) continue;
     if (Bears_Private(c, e)) return PETSC_TRUE;
   }
   return PETSC_FALSE;
