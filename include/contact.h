@@ -160,10 +160,11 @@ PetscBool ContactImageMakesEdge(const ContactSurface *, PetscInt corner, const P
 /* Facets whose multiplier functions are made together, those that share a corner that hangs: root[num_facets], the first of them. Not collective. */
 PetscErrorCode ContactFacetGroups(const ContactSurface *, PetscInt root[]);
 /* Facets of higher order: which nodes have multipliers (carries[nonmortar num_nodes], NULL: all), for the functions of covered facets, which are dual in the
-   reference positions; before the search. Functions of the others go to them. keeps[nonmortar num_nodes] (NULL: none): those of them that take no share of late
-   ones; of the others those that first take their share and give late, to nodes that do not keep. Without it the first search takes all nodes. The pair keeps
+   reference positions; before the search. Functions of the other nodes are added to theirs, extrapolated, so that all together still sum to 1. With late
+   [nonmortar num_nodes] (NULL: none) that is done twice: first with functions of nodes that are neither in carries nor in late, which all others get; then with
+   those of late nodes that are not in carries, which go to nodes in carries that are not late. Without a call the first search takes all nodes. The pair keeps
    the functions. Not collective. */
-PetscErrorCode ContactPairSetCarriers(ContactPair, const ContactSurface *nonmortar, const PetscBool carries[], const PetscBool keeps[]);
+PetscErrorCode ContactPairSetCarriers(ContactPair, const ContactSurface *nonmortar, const PetscBool carries[], const PetscBool late[]);
 /* Compliances of facets that are covered in part: gaps count as gt + S z, S = kappa [diag m - m m^T / sum m], kappa(share) as in
    src/contact/function/blend.c, m_j = softness times reference measure of j's function on the facet. A term z.S z / 2 of the Lagrangian, whose derivative by
    positions belongs to the forces. softness[nonmortar num_nodes]: facet size / Young's modulus, averaged on a facet; borrowed. Without it there are no

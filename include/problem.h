@@ -227,9 +227,9 @@ PetscErrorCode ProblemProlongation(Problem, Mat *prolongation, Mat *pinned, MatN
 /* Negative eigenvalues of the matrix in its symmetric form at a stable equilibrium: one for each constraint (pressures of contact, open or not, and of
    incompressible cells), less those that condensation met at the last tangent. Collective. */
 PetscErrorCode ProblemNumNegative(Problem, PetscInt *num);
-/* Of the exact matrix, whose rows of multipliers add factors above zero to the determinant: is that below zero at a stable equilibrium? -1: not known, with
-   rows of controls. Collective. */
-PetscErrorCode ProblemIsOddNegative(Problem, PetscInt *odd);
+/* Sign of the determinant of the exact matrix at a stable equilibrium: rows of multipliers and of rigid bodies add factors above zero, those of pressures
+   below. 0: not known, with rows of controls. Collective. */
+PetscErrorCode ProblemStableSign(Problem, PetscInt *sign);
 PetscInt       ProblemNumDofs(Problem); /* global: u, z and pi */
 /* Is there a body that supports do not hold? Not collective. */
 PetscBool ProblemHasFreeBody(Problem);

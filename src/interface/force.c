@@ -104,15 +104,13 @@ void InterfaceWatchEnds(Interface p, PetscBool begin)
 {
   for (PetscInt i = 0; i < p->num_contacts; ++i) {
     Contact *c = &p->contacts[i];
+    for (PetscInt f = 0; f < c->side[0].num_facets && begin; ++f) c->watch[f] = (EndWatch){.ends = -1};
     for (PetscInt f = 0; f < c->num_facets; ++f) {
-      const ContactFacet *e    = &c->facets[f];
-      EndWatch           *w    = &c->watch[e->facet];
-      const PetscBool     over = (PetscBool)(!begin && w->known && w->ends != e->ends && Bears_Private(c, e));
+      const ContactFacet *e = &c->facets[f];
+      EndWatch           *w = &c->watch[e->facet];
 
-      *w = (EndWatch){.known    = PETSC_TRUE,
-                      .ends     = e->ends,
-                      .passed   = (PetscBool)(over || (w->passed && !begin)),
-                      .returned = (PetscBool)(!begin && (w->returned || (over && w->passed)))};
+      if (w->ends >= 0 && w->ends != (PetscInt)e->ends && Bears_Private(c, e)) ++w->changes;
+      w->ends = e->ends;
     }
   }
 }
@@ -123,7 +121,7 @@ static PetscBool Movable_Private(const Contact *c, PetscBool any)
 {
   for (PetscInt f = 0; f < c->num_facets; ++f) {
     const ContactFacet *e = &c->facets[f];
-    if (e->push || (c->side[0].dim == 2 ? !(any || c->spec->self ? e->ends : c->watch[e->facet].returned) : c->side[0].order[e->facet] == 1)) continue;
+    if (e->push || (c->side[0].dim == 2 ? !(any || c->spec->self ? e->ends : c->watch[e->facet].changes > 1) : c->side[0].order[e->facet] == 1)) continue;
     if (Bears_Private(c, e)) return PETSC_TRUE;
   }
   return PETSC_FALSE;

@@ -140,7 +140,7 @@ typedef struct {
 /* The nodes' functions for what acts along a direction in which supports hold nodes (tiecarrier.c). The first of a pair: nothing is held. */
 typedef struct {
   PetscReal  along[3];
-  PetscBool *carries, *keeps;     /* [n] of ContactPairSetCarriers */
+  PetscBool *carries, *late;      /* [n] of ContactPairSetCarriers */
   PetscBool *here;                /* [num_facets] some of its nodes are held so */
   PetscInt  *donor_first, *donor; /* ContactPairGetDonors */
   PetscReal *donor_weight;
@@ -157,9 +157,10 @@ typedef struct {
   TieFunctions *functions;
 } Tie;
 
-/* Of a nonmortar facet, plane: does the mortar side end within it, and did that change in this solve while it bore, once and again? (force.c) */
+/* Of a nonmortar facet, plane: does the mortar side end within it (-1: it met nothing yet in this solve), and how often has that changed while it bore?
+   (force.c) */
 typedef struct {
-  PetscBool known, ends, passed, returned;
+  PetscInt ends, changes;
 } EndWatch;
 
 typedef struct {

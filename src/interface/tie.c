@@ -196,7 +196,7 @@ PetscErrorCode TieDestroy_Private(Contact *c)
   }
   for (PetscInt i = 0; i < t->num_functions; ++i) {
     TieFunctions *f = &t->functions[i];
-    PetscCall(PetscFree3(f->carries, f->keeps, f->here));
+    PetscCall(PetscFree3(f->carries, f->late, f->here));
     PetscCall(PetscFree3(f->donor_first, f->donor, f->donor_weight));
   }
   PetscCall(PetscFree(t->functions));

@@ -66,7 +66,7 @@ static PetscErrorCode New_Private(Contact *c, TieFunctions **functions)
   PetscCall(ArrayGrow(t->num_functions + 1, sizeof(TieFunctions), &t->room, &t->functions));
   f = *functions = &t->functions[t->num_functions++];
   *f             = (TieFunctions){0};
-  PetscCall(PetscCalloc3(n, &f->carries, n, &f->keeps, c->side[0].num_facets, &f->here));
+  PetscCall(PetscCalloc3(n, &f->carries, n, &f->late, c->side[0].num_facets, &f->here));
   PetscCall(PetscArraycpy(f->carries, t->functions[0].carries, n));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -76,7 +76,8 @@ static PetscBool IsParallel_Private(const PetscReal a[3], const PetscReal b[3])
   return (PetscBool)(1 - PetscSqr(Dot3(a, b)) <= PetscSqr(ROUND_LENGTH));
 }
 
-/* Do supports hold the node along h? 1, in part 0, not at all -1. */
+/* Is h an axis along which supports hold the node? 1; at an angle to one 0, else -1. (A corner of two supports that are not at right angles has axes of its
+   own, and directions for them: counted for both supports as well, what acts across the corner would count twice.) */
 static int Hold_Private(const Surface *s, PetscInt n, const PetscReal h[3])
 {
   int hold = -1;
@@ -104,7 +105,7 @@ static PetscErrorCode Along_Private(Contact *c, const PetscReal h[3])
     if (!c->tie->functions[0].carries[n]) continue;
     const int hold = Hold_Private(s, n, h);
     f->carries[n]  = (PetscBool)(hold < 1);
-    f->keeps[n]    = (PetscBool)(hold >= 0);
+    f->late[n]     = (PetscBool)(hold >= 0);
     for (PetscInt i = s->node_first[n]; i < s->node_first[n + 1] && hold == 1; ++i) f->here[s->node_facet[i]] = PETSC_TRUE;
   }
   PetscFunctionReturn(PETSC_SUCCESS);

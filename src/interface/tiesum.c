@@ -155,7 +155,7 @@ static PetscErrorCode Functions_Private(Contact *c, PetscInt functions)
   PetscBool           failed;
 
   PetscFunctionBegin;
-  PetscCall(ContactPairSetCarriers(c->pair, &side[0], f->carries, f->keeps));
+  PetscCall(ContactPairSetCarriers(c->pair, &side[0], f->carries, f->late));
   PetscCall(ContactPairTie(c->pair, &side[0], &side[1], &num, &facets, &failed));
   if (!functions) PetscCall(OpenAll_Private(c, num, facets));
   for (PetscInt i = 0; i < num; ++i) {

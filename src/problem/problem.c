@@ -217,14 +217,14 @@ PetscErrorCode ProblemNumNegative(Problem p, PetscInt *num)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ProblemIsOddNegative(Problem p, PetscInt *odd)
+PetscErrorCode ProblemStableSign(Problem p, PetscInt *sign)
 {
   PetscInt num, multipliers = p->num_z;
 
   PetscFunctionBegin;
   PetscCall(ProblemNumNegative(p, &num));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &multipliers, 1, MPIU_INT, MPI_SUM, p->comm));
-  *odd = p->num_controls > 0 || p->scene->load.control != LOAD_TIME ? -1 : PetscAbsInt(num - multipliers) % 2;
+  *sign = p->num_controls > 0 || p->scene->load.control != LOAD_TIME ? 0 : (num - multipliers) % 2 ? -1 : 1;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

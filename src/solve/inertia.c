@@ -24,84 +24,76 @@ PetscErrorCode SolverInertiaSetUp_Private(Solver s)
   PetscCall(PetscOptionsHasName(NULL, NULL, "-mat_mumps_icntl_13", &set)); /* ours: not one that nothing used, where nothing is factorised */
   PetscCall(PetscOptionsHasName(NULL, NULL, "-mat_mumps_icntl_33", &set));
   if (!set) PetscCall(PetscOptionsSetValue(NULL, "-mat_mumps_icntl_33", "1")); /* the determinant */
-  PetscCall(PetscOptionsHasName(NULL, NULL, "-mat_mumps_icntl_33", &set));
+  PetscCall(PetscOptionsHasName(NULL, NULL, "-mat_mumps_icntl_33", &set));     /* as above */
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* MUMPS' factor in pc, NULL: none that could tell. */
+/* MUMPS' factor in pc, NULL: another one. */
 static PetscErrorCode Factor_Private(PC pc, Mat *F)
 {
-  PCFailedReason failed;
-  MatSolverType  type;
-  PetscBool      mumps;
+  MatSolverType type;
+  PetscBool     mumps;
 
   PetscFunctionBegin;
   *F = NULL;
-  PetscCall(PCGetFailedReason(pc, &failed));
-  if (failed != PC_NOERROR) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PCFactorGetMatSolverType(pc, &type));
   PetscCall(PetscStrcmp(type, MATSOLVERMUMPS, &mumps));
   if (mumps) PetscCall(PCFactorGetMatrix(pc, F));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Negative pivots of the factor in pc, -1: it does not tell. */
-static PetscErrorCode Negative_Private(Solver s, PC pc, PetscInt *negative)
+/* LDL^T: negative pivots beyond those of the constraints; -1: the factor does not tell. */
+static PetscErrorCode Pivots_Private(Solver s, PC pc, PetscInt *negative)
 {
-  PCFailedReason failed;
-  PetscMPIInt    size;
-  PetscInt       whole = 0;
-  PetscBool      set;
-  Mat            F;
+  PetscMPIInt size;
+  PetscInt    whole = 0, constraints;
+  PetscBool   set;
+  Mat         F;
 
   PetscFunctionBegin;
   *negative = -1;
   PetscCallMPI(MPI_Comm_size(PetscObjectComm((PetscObject)pc), &size));
   PetscCall(PetscOptionsGetInt(NULL, NULL, "-mat_mumps_icntl_13", &whole, &set));
-  PetscCall(PCGetFailedReason(pc, &failed));
-  if (failed != PC_NOERROR || (size > 1 && whole != 1)) PetscFunctionReturn(PETSC_SUCCESS);
-  if (s->single) {
+  if (size > 1 && whole != 1) PetscFunctionReturn(PETSC_SUCCESS);
+  if (s->single)
     PetscCall(SingleFactorNegative_Private(pc, negative));
-    PetscFunctionReturn(PETSC_SUCCESS);
+  else {
+    PetscCall(Factor_Private(pc, &F));
+    if (F) PetscCall(MatMumpsGetInfog(F, 12, negative));
   }
-  PetscCall(Factor_Private(pc, &F));
-  if (F) PetscCall(MatMumpsGetInfog(F, 12, negative));
+  if (*negative < 0) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(ProblemNumNegative(s->problem, &constraints));
+  PetscCall(PetscInfo(s->snes, "%" PetscInt_FMT " negative pivots, %" PetscInt_FMT " constraints\n", *negative, constraints));
+  *negative = PetscMax(0, *negative - constraints);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Of LU: 1 where the determinant's sign tells a direction in which the equilibrium is unstable, else 0; -1: it does not tell. Rows that controls add
-   (load.control, loads of rigid bodies) have signs of their own. */
-static PetscErrorCode Parity_Private(Solver s, PC pc, PetscInt *negative)
+/* LU: 1 where the sign of the determinant is not that of a stable equilibrium, else 0; -1: it does not tell. */
+static PetscErrorCode Sign_Private(Solver s, PC pc, PetscInt *negative)
 {
   PetscReal mantissa;
-  PetscInt  below;
+  PetscInt  stable;
   Mat       F;
 
   PetscFunctionBegin;
   *negative = -1;
-  PetscCall(ProblemIsOddNegative(s->problem, &below));
-  if (s->single || below < 0) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(ProblemStableSign(s->problem, &stable));
+  if (s->single || stable == 0) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(Factor_Private(pc, &F));
   if (!F) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(MatMumpsGetRinfog(F, 12, &mantissa));
-  PetscCall(PetscInfo(s->snes, "mantissa of the determinant %g, below zero where stable: %" PetscInt_FMT "\n", (double)mantissa, below));
-  if (mantissa != 0) *negative = (mantissa < 0) != (below == 1);
+  PetscCall(PetscInfo(s->snes, "mantissa of the determinant %g, sign at a stable equilibrium %" PetscInt_FMT "\n", (double)mantissa, stable));
+  if (mantissa != 0) *negative = mantissa * (PetscReal)stable < 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SolverInertia_Private(Solver s, PC pc)
 {
-  PetscInt constraints;
+  PCFailedReason failed;
 
   PetscFunctionBegin;
-  if (!s->symmetric) {
-    PetscCall(Parity_Private(s, pc, &s->negative));
-    PetscFunctionReturn(PETSC_SUCCESS);
-  }
-  PetscCall(Negative_Private(s, pc, &s->negative));
-  if (s->negative < 0) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(ProblemNumNegative(s->problem, &constraints));
-  PetscCall(PetscInfo(s->snes, "%" PetscInt_FMT " negative pivots, %" PetscInt_FMT " constraints\n", s->negative, constraints));
-  s->negative = PetscMax(0, s->negative - constraints);
+  s->negative = -1;
+  PetscCall(PCGetFailedReason(pc, &failed));
+  if (failed == PC_NOERROR) PetscCall((s->symmetric ? Pivots_Private : Sign_Private)(s, pc, &s->negative));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -221,22 +221,22 @@ static PetscErrorCode Give_Private(MultiplierWork *w, const Group *g, PetscInt d
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Functions of nodes that carry nothing go to the others, first of those that do not keep theirs; their rows go. */
+/* Functions of nodes that carry nothing go to the others, those of late nodes in the second round; rows of what has none left go. */
 static PetscErrorCode GroupRemove_Private(MultiplierWork *w, const Group *g, const PetscInt degree[2])
 {
   PetscBool *gives, *takes;
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc2(g->num, &gives, g->num, &takes));
-  for (int late = 0; late <= w->late; late++) {
+  for (int round = 0; round <= w->round; round++) {
     PetscInt givers = 0, takers = 0;
 
     for (PetscInt i = 0; i < g->num; i++) {
-      const PetscBool carries = w->carries[g->node[i]], keeps = (PetscBool)(w->keeps && w->keeps[g->node[i]]);
-      givers += gives[i] = (PetscBool)(!carries && keeps == (PetscBool)late);
-      takers += takes[i] = (PetscBool)(late ? carries && !keeps : carries || keeps);
+      const PetscBool carries = w->carries[g->node[i]], late = (PetscBool)(w->late && w->late[g->node[i]]);
+      givers += gives[i] = (PetscBool)(!carries && late == (PetscBool)round);
+      takers += takes[i] = (PetscBool)(round ? carries && !late : carries || late);
     }
-    if (givers && takers) PetscCall(Give_Private(w, g, degree[late], gives, takes));
+    if (givers && takers) PetscCall(Give_Private(w, g, degree[round], gives, takes));
   }
   for (PetscInt f = 0; f < g->num_facets; f++) {
     const PetscInt  num = ContactLatticeSize(w->s, g->facet[f]);
@@ -244,7 +244,7 @@ static PetscErrorCode GroupRemove_Private(MultiplierWork *w, const Group *g, con
 
     r->num = 0;
     for (PetscInt i = 0; i < g->num; i++) { /* rows that stay, in place: the place is never behind the row */
-      if (!w->carries[g->node[i]] && (w->late || !w->keeps || !w->keeps[g->node[i]])) continue;
+      if (!w->carries[g->node[i]] && (w->round || !w->late || !w->late[g->node[i]])) continue;
       PetscCall(PetscArraymove(r->T + num * r->num, r->T + num * i, num));
       PetscCall(PetscArraymove(r->B + num * r->num, r->B + num * i, num));
       r->node[r->num++] = g->node[i];

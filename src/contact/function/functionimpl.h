@@ -44,8 +44,8 @@ typedef struct ContactMultiplier {
 } ContactMultiplier;
 
 /* Multiplier functions of a surface from its reference positions X (x is not looked at). carries[num_nodes] (NULL: all): the true node has a multiplier;
-   keeps[num_nodes] (NULL: none): as in ContactPairSetCarriers. Not collective. */
-PetscErrorCode ContactMultiplierCreate(const ContactSurface *, PetscBool axisymmetric, PetscBool standard, const PetscBool carries[], const PetscBool keeps[],
+   late[num_nodes] (NULL: none): as in ContactPairSetCarriers. Not collective. */
+PetscErrorCode ContactMultiplierCreate(const ContactSurface *, PetscBool axisymmetric, PetscBool standard, const PetscBool carries[], const PetscBool late[],
                                        ContactMultiplier **);
 PetscErrorCode ContactMultiplierDestroy(ContactMultiplier **);
 
@@ -80,8 +80,8 @@ typedef struct {
   const ContactSurface *s;
   PetscBool             axisymmetric, standard;
   const PetscBool      *carries; /* [num_nodes] */
-  const PetscBool      *keeps;   /* [num_nodes] or NULL */
-  int                   late;    /* 1: those that give late have given, too */
+  const PetscBool      *late;    /* [num_nodes] or NULL */
+  int                   round;   /* 0: functions of late nodes are still their own */
   PetscInt             *root;    /* [num_facets] ContactFacetGroups */
   PetscBool            *exact;   /* [num_facets] P^T psi_L */
   PetscInt             *place;   /* [num_nodes] -1; row of a true node in the group at hand */
@@ -90,7 +90,7 @@ typedef struct {
   MultiplierDonors     *donors;  /* [num_facets] */
 } MultiplierWork;
 
-/* dual.c: rows of facets whose functions are made together, afresh, with these degrees of nodes that give first and late; held: some carry nothing. */
+/* dual.c: rows of facets whose functions are made together, afresh, with these degrees for either round; held: some carry nothing. */
 PetscErrorCode ContactMultiplierGroup(MultiplierWork *, PetscInt num_facets, const PetscInt facet[], const PetscInt degree[2], PetscBool *held);
 
 /* donors.c: keeps the weights W[n][n] of extrapolate.c for n nodes; the weights of all facets, by nodes. */

@@ -99,8 +99,8 @@ static PetscBool IsLight_Private(const MultiplierWork *w, PetscInt num_facets, c
   return PETSC_FALSE;
 }
 
-/* All groups: facets[start[g] .. start[g+1]). Where int psi_j beside held nodes comes out too small, again with a lower degree: of the nodes that give first,
-   then of those that give late. */
+/* All groups: facets[start[g] .. start[g+1]). Where int psi_j beside held nodes comes out too small, again with a lower degree, round by
+   round. */
 static PetscErrorCode GroupsMake_Private(MultiplierWork *w, PetscInt num, const PetscInt start[], const PetscInt facets[], const PetscReal whole[])
 {
   PetscInt(*degree)[2];
@@ -108,10 +108,10 @@ static PetscErrorCode GroupsMake_Private(MultiplierWork *w, PetscInt num, const 
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(num, &degree));
-  for (w->late = 0; w->late < (w->keeps ? 2 : 1); w->late++) {
+  for (w->round = 0; w->round < (w->late ? 2 : 1); w->round++) {
     PetscCall(PetscArrayzero(w->weight, w->s->num_nodes));
     for (PetscInt g = 0; g < num; g++) {
-      PetscInt *own = &degree[g][w->late];
+      PetscInt *own = &degree[g][w->round];
       *own          = MORTISE_MAX_ORDER;
       for (PetscInt i = start[g]; i < start[g + 1]; i++) *own = PetscMin(*own, (w->s->order ? w->s->order[facets[i]] : 1) - 1);
       PetscCall(ContactMultiplierGroup(w, start[g + 1] - start[g], facets + start[g], degree[g], &held));
@@ -121,9 +121,9 @@ static PetscErrorCode GroupsMake_Private(MultiplierWork *w, PetscInt num, const 
     do {
       again = PETSC_FALSE;
       for (PetscInt g = 0; g < num; g++) {
-        if (degree[g][w->late] == 0 || !IsLight_Private(w, start[g + 1] - start[g], facets + start[g], whole)) continue;
+        if (degree[g][w->round] == 0 || !IsLight_Private(w, start[g + 1] - start[g], facets + start[g], whole)) continue;
         for (PetscInt i = start[g]; i < start[g + 1]; i++) PetscCall(AddWeights_Private(w, facets[i], -1));
-        --degree[g][w->late];
+        --degree[g][w->round];
         PetscCall(ContactMultiplierGroup(w, start[g + 1] - start[g], facets + start[g], degree[g], &held));
         for (PetscInt i = start[g]; i < start[g + 1]; i++) PetscCall(AddWeights_Private(w, facets[i], 1));
         again = PETSC_TRUE;
@@ -222,10 +222,10 @@ static PetscErrorCode Pack_Private(const MultiplierWork *w, ContactMultiplier **
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ContactMultiplierCreate(const ContactSurface *s, PetscBool axisymmetric, PetscBool standard, const PetscBool carries[], const PetscBool keeps[],
+PetscErrorCode ContactMultiplierCreate(const ContactSurface *s, PetscBool axisymmetric, PetscBool standard, const PetscBool carries[], const PetscBool late[],
                                        ContactMultiplier **out)
 {
-  MultiplierWork w = {.s = s, .axisymmetric = axisymmetric, .standard = standard, .keeps = keeps};
+  MultiplierWork w = {.s = s, .axisymmetric = axisymmetric, .standard = standard, .late = late};
   PetscBool     *own;
   PetscReal     *whole;
 

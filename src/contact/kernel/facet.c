@@ -41,12 +41,12 @@ const PetscInt *ContactPairGetMortarParents(ContactPair pair)
   return pair->ray->mortar_parent;
 }
 
-PetscErrorCode ContactPairSetCarriers(ContactPair pair, const ContactSurface *nonmortar, const PetscBool carries[], const PetscBool keeps[])
+PetscErrorCode ContactPairSetCarriers(ContactPair pair, const ContactSurface *nonmortar, const PetscBool carries[], const PetscBool late[])
 {
   PetscFunctionBegin;
   pair->state.stands = PETSC_FALSE;
   PetscCall(ContactMultiplierDestroy(&pair->multiplier));
-  PetscCall(ContactMultiplierCreate(nonmortar, pair->axisymmetric, pair->standard, carries, keeps, &pair->multiplier));
+  PetscCall(ContactMultiplierCreate(nonmortar, pair->axisymmetric, pair->standard, carries, late, &pair->multiplier));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
