@@ -241,10 +241,11 @@ void           InterfaceKeepWeights(Interface);
 PetscErrorCode InterfaceCarryForces(Interface, Vec dx, PetscBool *changed);
 /* Pairs that have borne nothing yet. */
 PetscErrorCode InterfaceFindUntouched(Interface, uint64_t *pairs);
-/* At each iterate of a solve, begin: the first one. Does an end of the mortar side lie within a facet that bears or beyond it? Not collective. */
+/* At each iterate of a solve: notes in which facets the mortar side ends, and which that changed for while they bore. begin: what was noted is forgotten, as at
+   the first iterate. Not collective. */
 void InterfaceWatchEnds(Interface, PetscBool begin);
-/* Are there facets under pressure whose forces frozen segmentation would change? In the plane, unless any is set or the surface may meet itself: where in this
-   solve an end of the mortar side went over the end of the facet and came back. Collective. */
+/* Are there facets under pressure whose forces frozen segmentation would change? In the plane those in which the mortar side ends: any of them, if that is set
+   or the surface may meet itself; else those over whose end it went and came back (InterfaceWatchEnds). Collective. */
 PetscErrorCode InterfaceMayFreezeSegmentation(Interface, PetscBool any, PetscBool *yes);
 /* As ProblemFindSlide, for a step with this increment. */
 PetscErrorCode InterfaceFindSlide(Interface, const PetscReal increment[], Vec force, PetscReal *excess);

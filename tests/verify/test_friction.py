@@ -690,6 +690,15 @@ def test_node_over_the_corner_of_a_valley(run):
     assert whole.returncode == half.returncode == 0 and whole.summary["step_cuts"] == 0, (whole, half)
     assert whole.summary["energy"] == pytest.approx(2 * half.summary["energy"], rel=1e-5)
     assert whole.summary["modifiers"]["frozen_segmentation"] == 1, whole
+    for ranks in (2, 3):
+        assert run("cradle.yml", text=text, ranks=ranks).summary["energy"] == pytest.approx(whole.summary["energy"], rel=1e-12)
+
+
+def test_tangent_of_held_ends(run):
+    """A block slides off the edge of another: the tangent of forces that do not follow the end of the mortar side is exact."""
+    result = run("tests/gauntlet/slide.yml", "-newton_frozen_segmentation", "on", "-load_step", 0.25, "-load_end", 1.5, "-contact_c_friction", 0.2, "-snes_test_jacobian", "-output_fields", "false")
+    error = [float(line.split("=")[1].split(",")[0]) for line in result.stdout.splitlines() if "||J - Jfd||_F/||J||_F =" in line]
+    assert result.returncode == 0 and max(error) < 1e-6 and any(column(result, "frozen_segmentation")), error
 
 
 OBLIQUE = """

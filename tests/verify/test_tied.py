@@ -268,7 +268,7 @@ def figures(result):
     return numpy.array([row["energy"], row["estimated_error"], *(pair["max_traction"] for pair in result.summary["contact"].values()), *forces])
 
 
-@pytest.mark.parametrize("order, ranks", [(1, 1), (1, 2), (2, 1), (3, 1)])
+@pytest.mark.parametrize("order, ranks", [(1, 1), (1, 2), (2, 1), (3, 3)])
 @pytest.mark.parametrize("nonmortar", ["upper", "lower"])
 def test_turned_in_the_plane(run, nonmortar, order, ranks):
     """Blocks pressed between walls, the upper one not as wide, along the axes of the coordinates and turned by 30 degrees: the same."""
