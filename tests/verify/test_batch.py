@@ -32,20 +32,25 @@ def start(path, *options, ranks=1, text=None, env=None, **keywords):
                                          "env": {**os.environ, **(env or {})}} | keywords))
 
 
-def becomes(true, process=None, tries=3000):
-    """Whether that comes true in half a minute of this process's own: a clock goes on, or is set, where the machine stands still."""
-    for _ in range(tries):
-        if true() or (process and process.poll() is not None):
+def becomes(true, process=None):
+    """Whether that comes true in PATIENCE of this process's own time (a clock goes on, or is set, where the machine stands still). Asked once each
+    time: what was there need not be there when asked again."""
+    for _ in range(100 * PATIENCE):
+        if true():
+            return True
+        if process and process.poll() is not None:
             break
         time.sleep(0.01)
-    return true()
+    return bool(true())
 
 
 def wait_for(there, process):
+    begun = time.monotonic()
     if not becomes(there, process):
+        seconds, status = time.monotonic() - begun, process.poll()
         others = subprocess.run(["ps", "-eo", "pid,ppid,stat,comm,args"], capture_output=True, text=True).stdout
         process.kill()
-        pytest.fail(f"{process.communicate(timeout=PATIENCE)}\n{others}")
+        pytest.fail(f"{seconds:.1f} s, status {status}, {process.communicate(timeout=PATIENCE)}\n{others}")
 
 
 def rows(directory):
