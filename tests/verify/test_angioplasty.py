@@ -311,7 +311,7 @@ def opened_stent(run, passes, *options):
 
 def test_o71_touches(run):
     """The balloon meets the stent: forces of the two sides balance, nothing is cut."""
-    result = run("inputs/angioplasty3d.yml", "-output_fields", "false", "-adapt_tolerance", 0, "-load_step", 0.25, "-load_step_max", 0.25, "-load_end", 0.5)
+    result = run("inputs/angioplasty3d.yml", "-output_fields", "false", "-adapt_tolerance", 0, "-load_step", 0.5, "-load_step_max", 0.5, "-load_end", 0.5)
     assert result.returncode == 0 and result.summary["step_cuts"] == 0, result
     assert result.summary["contact"]["balloon_in_stent"]["active_nodes"] > 0 and result.summary["contact"]["balloon_in_stent"]["force_imbalance"] < 1e-12
 

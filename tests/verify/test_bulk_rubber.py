@@ -156,7 +156,7 @@ def test_o12_limit_point(run, tmp_path, dim, radial, around):
     """Pressure control stops at the largest pressure: exit status 2, the last state is written and short of the limit radius or near it."""
     scene = ball(tmp_path, dim, radial, around)
     scene["boundary"]["inner"] = {"pressure": 0.9}
-    scene["load"] = {"step": 0.1, "step_max": 0.1, "step_min": 1e-4}
+    scene["load"] = {"step": 0.1, "step_max": 0.1, "step_min": 1e-3}
     scene["output"]["fields"] = True
     result = solve(run, scene)
     assert result.returncode == 2, result
