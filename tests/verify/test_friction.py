@@ -690,8 +690,7 @@ def test_node_over_the_corner_of_a_valley(run):
     assert whole.returncode == half.returncode == 0 and whole.summary["step_cuts"] == 0, (whole, half)
     assert whole.summary["energy"] == pytest.approx(2 * half.summary["energy"], rel=1e-5)
     assert whole.summary["modifiers"]["frozen_segmentation"] == 1, whole
-    for ranks in (2, 3):
-        assert run("cradle.yml", text=text, ranks=ranks).summary["energy"] == pytest.approx(whole.summary["energy"], rel=1e-12)
+    assert run("cradle.yml", text=text, ranks=3).summary["energy"] == pytest.approx(whole.summary["energy"], rel=1e-12)
 
 
 def test_tangent_of_held_ends(run):
@@ -764,14 +763,14 @@ def test_tangent_at_an_oblique_support(run, order):
 
 def wheel(run, *words, **keys):
     """A rigid wheel under its weight on a soft slope, turned by 90 degrees: how far along x it has gone."""
-    result = run("tests/gauntlet/climb.yml", *words, "-output_fields", "false", **keys)
+    result = run("tests/gauntlet/climb.yml", "-order", 1, "-mesh_parameter_s", 0.16, *words, "-output_fields", "false", **keys)
     assert result.returncode == 0, result
     return float(result.history[-1]["body.wheel.displacement.x"]), result.summary
 
 
 def test_a_wheel_rolls_in_any_step(run):
     """Steps in which it would roll too far are made again, shorter, on any number of ranks; without that it slips."""
-    fine, large = wheel(run, "-load_step", 0.0625), wheel(run, "-load_step", 1)
+    fine, large = wheel(run, "-load_step", 0.125), wheel(run, "-load_step", 1)
     assert large[0] == pytest.approx(fine[0], rel=0.01) and fine[1]["rolled_too_far"] == 0 < large[1]["rolled_too_far"]
     for ranks in (2, 3): assert wheel(run, "-load_step", 1, ranks=ranks)[0] == pytest.approx(large[0], rel=1e-8)
     slips, summary = wheel(run, "-load_step", 1, "-path_rolling", "off")
