@@ -1,4 +1,5 @@
 """A mortar side with edges: each of its smooth faces has multipliers of its own, and the pair is one in what a run tells and writes."""
+import pathlib
 import re
 
 import h5py
@@ -8,6 +9,7 @@ import pytest
 from contactkit import is_quadratic, steps
 
 SCENE = "tests/gauntlet/sharp.yml"
+SCENES = pathlib.Path(__file__).resolve().parent / "scenes"
 
 
 def force(result):
@@ -60,3 +62,22 @@ def test_tangent(run, order):
     ratios = [float(value) for value in re.findall(r"\|\|J - Jfd\|\|_F/\|\|J\|\|_F = (\S+?),", result.stdout)]
     assert result.returncode == 0 and len(ratios) >= 3 and max(ratios[1:]) < 1e-6, (ratios, result)
     assert is_quadratic(steps(result)[-1]), steps(result)
+
+
+FIR_TREE = """
+mesh: {file: %s, order: 2}
+model: plane_strain
+body: {blade: {material: m}, disk: {material: m}}
+material: {m: {law: neo_hookean, E: 1000, nu: 0.3}}
+boundary: {middle: {fix: x}, held: {fix: xy}, top: {traction: {y: 2}}}
+contact: {c: {nonmortar: groove, mortar: root}}
+load: {step: 1}
+"""
+
+
+@pytest.mark.xfail(strict=True, reason="functions that change their sign beside sharp corners (docs/ablation.md)")
+@pytest.mark.parametrize("order", [1, 2])
+def test_fir_tree(run, order):
+    """Flanks as coarse as the lobes, a sharp corner at either end of each: forces are along their normals, (3, 2) and (0.3, 0.2), whatever the pressures."""
+    x, y = force(run("tree.yml", "-order", order, text=FIR_TREE % (SCENES / "fir_tree.geo")))[:2]
+    assert abs(y) == pytest.approx(0.7, rel=1e-6) and 1.44 < abs(x / y) < 1.53, (x, y)
