@@ -152,7 +152,7 @@ def test_contact_between_nodes(run, dim):
     """The estimate sees an overlap that no node does, in bodies that are free of stress: cells there are refined until contact bears, the same on any number of
     ranks."""
     scene, axis, tolerance, exact = SHALLOW[dim]
-    results = [run(scene, "-order", 2, f"-boundary_top_displacement_{axis}", "-0.0005*t", "-adapt_tolerance", tolerance, ranks=ranks) for ranks in range(1, 6 - dim)]
+    results = [run(scene, "-order", 2, f"-boundary_top_displacement_{axis}", "-0.0005*t", "-adapt_tolerance", tolerance, ranks=ranks) for ranks in (1, 2, 3)]
     for result in results:
         assert result.solved and result.summary["estimated_error"] < tolerance and not result.summary["warnings"], result
         assert result.adapt[0]["active_nodes"] == 0 and result.adapt[0]["estimated_error"] == 1

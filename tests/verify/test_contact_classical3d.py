@@ -164,7 +164,7 @@ def section(run, *options):
 
 def test_o56_rounded_punch(run):
     """Quarter and section agree: displacement 1 %."""
-    result = solved(run, "inputs/punch3d.yml", *QUIET, "-adapt_tolerance", 0.25)  # 682 cells
+    result = solved(run, "inputs/punch3d.yml", *QUIET, "-adapt_tolerance", 0.25)
     assert abs(pair(result)["force"][2] / (25 * math.pi * 50**2) - 1) < 2e-4
     centre = result.summary["probe"]["centre"]
     assert abs(centre["displacement"][2] / section(run)[0] - 1) < 0.01, centre

@@ -690,7 +690,8 @@ def test_node_over_the_corner_of_a_valley(run):
     assert whole.returncode == half.returncode == 0 and whole.summary["step_cuts"] == 0, (whole, half)
     assert whole.summary["energy"] == pytest.approx(2 * half.summary["energy"], rel=1e-5)
     assert whole.summary["modifiers"]["frozen_segmentation"] == 1, whole
-    assert run("cradle.yml", text=text, ranks=3).summary["energy"] == pytest.approx(whole.summary["energy"], rel=1e-12)
+    for ranks in (2, 3):
+        assert run("cradle.yml", text=text, ranks=ranks).summary["energy"] == pytest.approx(whole.summary["energy"], rel=1e-12)
 
 
 def test_tangent_of_held_ends(run):
@@ -770,7 +771,7 @@ def wheel(run, *words, **keys):
 
 def test_a_wheel_rolls_in_any_step(run):
     """Steps in which it would roll too far are made again, shorter, on any number of ranks; without that it slips."""
-    fine, large = wheel(run, "-load_step", 0.125), wheel(run, "-load_step", 1)
+    fine, large = wheel(run, "-load_step", 0.0625), wheel(run, "-load_step", 1)
     assert large[0] == pytest.approx(fine[0], rel=0.01) and fine[1]["rolled_too_far"] == 0 < large[1]["rolled_too_far"]
     for ranks in (2, 3): assert wheel(run, "-load_step", 1, ranks=ranks)[0] == pytest.approx(large[0], rel=1e-8)
     slips, summary = wheel(run, "-load_step", 1, "-path_rolling", "off")
