@@ -1,7 +1,8 @@
 /* Faces of a contact side. Where the mortar side has an edge, a facet of the other side that lies across it sees two faces, and one multiplier for both
    would hold a mean of their gaps: of one that is closed under a punch and of one that is open beside it. So what lies across an edge is met by multipliers
-   of its own: the pair is made once for each colour, and faces that share an edge or a corner have different ones. So is a pair of one surface, of which a node
-   on an edge may touch with one of its faces while the other one sees the far side of a hollow.
+   of its own: the pair is made once for each colour. Faces that share an edge or a corner have different ones, and so have those beside one face: a facet that
+   is as long as a flank sees what is before and behind it, and would take the jump from one to the other for a gap. So is a pair of one surface made, of which
+   a node on an edge may touch with one of its faces while the other one sees the far side of a hollow.
 
    A convex edge parts what no facet faces squarely on both sides (CONTACT_OPPOSE): over a blunter one both gaps are those of the facet, and constraints for
    each would be more than it has nodes. In a concave one a corner of the other side is held by both.
@@ -209,26 +210,41 @@ static PetscErrorCode Beside_Private(PetscInt num, const Rim rim[], PetscInt par
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Colours of faces in the order of their roots, each the least that no face beside it has yet. */
+/* Colours, one bit each, of those faces beside one, pair[first[face]] .. pair[first[face + 1]], that come before a root. */
+static uint64_t Taken_Private(const PetscInt first[], PetscInt (*pair)[2], PetscInt face, PetscInt before, const int8_t colour[])
+{
+  uint64_t taken = 0;
+  for (PetscInt k = first[face]; k < first[face + 1]; ++k)
+    if (pair[k][1] < before) taken |= UINT64_C(1) << colour[pair[k][1]];
+  return taken;
+}
+
+/* Colours of faces in the order of their roots, each the least that neither a face beside it nor one beside that has yet. */
 static PetscErrorCode Colours_Private(PetscInt num, const Rim rim[], PetscInt parent[], PetscInt num_sides, int8_t colour[], PetscInt *num_colours)
 {
-  PetscInt num_pairs, (*pair)[2];
+  PetscInt num_pairs, (*pair)[2], *first;
 
   PetscFunctionBegin;
   PetscCall(Beside_Private(num, rim, parent, &num_pairs, &pair));
-  for (PetscInt i = 0; i < num_sides; ++i) colour[i] = -1;
+  PetscCall(PetscCalloc1(num_sides + 1, &first));
+  for (PetscInt k = 0; k < num_pairs; ++k) ++first[pair[k][0] + 1];
+  for (PetscInt i = 0; i < num_sides; ++i) {
+    first[i + 1] += first[i];
+    colour[i] = -1;
+  }
   for (PetscInt i = 0; i < num; ++i) colour[Root_Private(parent, rim[i].side)] = 0;
   *num_colours = 1;
-  for (PetscInt k = 0, end; k < num_pairs; k = end) {
-    uint64_t taken = 0;
+  for (PetscInt face = 0; face < num_sides; ++face) {
+    uint64_t taken = Taken_Private(first, pair, face, face, colour);
     PetscInt own   = 0;
-    for (end = k; end < num_pairs && pair[end][0] == pair[k][0]; ++end)
-      if (pair[end][1] < pair[k][0]) taken |= UINT64_C(1) << colour[pair[end][1]];
+    for (PetscInt k = first[face]; k < first[face + 1]; ++k) taken |= Taken_Private(first, pair, pair[k][1], face, colour);
+    if (first[face] == first[face + 1]) continue;
     while (own < MOST - 1 && taken >> own & 1) ++own;
-    colour[pair[k][0]] = (int8_t)own;
-    *num_colours       = PetscMax(*num_colours, own + 1);
+    colour[face] = (int8_t)own;
+    *num_colours = PetscMax(*num_colours, own + 1);
   }
   for (PetscInt i = 0; i < num; ++i) colour[rim[i].side] = colour[Root_Private(parent, rim[i].side)];
+  PetscCall(PetscFree(first));
   PetscCall(PetscFree(pair));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -143,7 +143,7 @@ FacetJoint ContactFacetJoint(const ContactSurface *s, PetscInt a, PetscInt b)
       if (s->facets[nv * a + k] != s->facets[nv * b + l]) continue;
       NormalAt_Private(s, a, Place_Private(s, k), n[0]);
       NormalAt_Private(s, b, Place_Private(s, l), n[1]);
-      return Dot3(n[0], n[1]) > CONTACT_OPPOSE ? JOINT_SMOOTH : JOINT_SHARP;
+      return Dot3(n[0], n[1]) > CONTACT_SHARP ? JOINT_SMOOTH : JOINT_SHARP;
     }
   return JOINT_NONE;
 }
