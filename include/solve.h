@@ -20,6 +20,7 @@ typedef struct {
   PetscInt      unstable; /* converged: 1 when the last tangent factorised goes down in energy along some motion the constraints allow, -1: not known, else 0 */
   PetscInt      descents; /* of SolverDescend, each with multipliers of its own */
   PetscInt      descent_iterations; /* their tangent assemblies */
+  PetscReal     fall;               /* of SolverStabilise: of the energy along the lowest eigenvector, in strain energies */
   PetscReal     residual, scale;
   ProblemStatus status;
 } SolverReport;

@@ -59,11 +59,11 @@ PetscErrorCode PathStabilise(Path *p, PetscBool *changed)
   if (*changed) {
     p->unstable_now = PETSC_FALSE;
     if (p->stabilised++ == 0)
-      PetscCall(
-          PetscPrintf(ForestComm(l->forest),
-                      "note: the equilibrium found at t = %g is unstable; a stable one of less energy takes its place, there and where that happens again "
-                      "(load.stable)\n",
-                      (double)l->state.t));
+      PetscCall(PetscPrintf(
+          ForestComm(l->forest),
+          "note: the equilibrium found at t = %g is unstable; a stable one takes its place, there and where that happens again (load.stable); "
+          "energy falls by %.2g %% of the strain energy along the mode of it: nothing, if the mesh is off by more, as where a round body is free to turn\n",
+          (double)l->state.t, (double)(100 * report.fall)));
   } else
     PetscCall(Keep_Private(l, &unstable));
   PetscCall(StateDestroy(&unstable));

@@ -394,6 +394,7 @@ PetscErrorCode DescentRun_Private(Solver s, DescentStart start, const char *reas
   PetscCall(VecCopy(state->x, d.lambda));
   PetscCall(start(&d, state->x, &ok));
   if (ok) PetscCall(Finish_Private(&d, state));
+  report->fall = d.fall;
   PetscCall(DescentDestroy_Private(&d));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -160,6 +160,7 @@ typedef struct {
   PetscReal     least;                                    /* that the next one begins with */
   PetscReal     added;                                    /* to the matrix */
   PetscReal     merit;                                    /* at the iterate */
+  PetscReal     fall;                                     /* of the energy, along the lowest eigenvector, in strain energies (stable.c) */
   PetscReal     round_off;                                /* of Phi: a smaller decrease is none; terms as many as unknowns */
   ProblemStatus status;
   SolverReport *report;

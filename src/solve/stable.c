@@ -89,7 +89,8 @@ static PetscErrorCode Leave_Private(Descent *d, Vec x, PetscBool *ok)
   const PetscInt k = merit[1] < merit[0] - ROUND_LENGTH * PetscAbsReal(d->merit - merit[0]) ? 1 : 0;
   PetscCall(PetscInfo(d->ksp, "energy falls by %g at %g, by %g at %g\n", (double)(d->merit - merit[0]), (double)step[0], (double)(d->merit - merit[1]),
                       (double)step[1]));
-  *ok = (PetscBool)(step[k] != 0);
+  *ok     = (PetscBool)(step[k] != 0);
+  d->fall = (d->merit - merit[k]) / d->status.energy;
   PetscCall(VecAXPY(x, step[k], d->dx));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
