@@ -19,6 +19,7 @@ typedef struct _p_Forest *Forest;
 
 typedef struct {
   char     file[PETSC_MAX_PATH_LEN]; /* .msh 2.2 or 4.1 */
+  char     told[PETSC_MAX_PATH_LEN]; /* its name in messages, as of the .geo that it was made of; "": file */
   PetscInt dim;                      /* 2 or 3 */
   PetscInt refine;                   /* uniform refinements at once */
 } ForestSpec;

@@ -10,6 +10,7 @@ typedef struct {
 
 typedef struct {
   const ForestSpec *spec;
+  const char       *told;    /* name of the file in messages */
   char             *message; /* sentence about wrong input, empty: fine */
   size_t            length;
   GroupName        *name; /* owned [num_names] physical names of the file */
@@ -36,21 +37,21 @@ static PetscErrorCode ReadNames_Private(Reader *r, FILE *file)
 
   PetscFunctionBegin;
   if (!fgets(line, sizeof(line), file) || sscanf(line, "%d", &num) != 1 || num < 0)
-    FAIL(r, "mesh file '%s' is damaged: its section $PhysicalNames has no count", r->spec->file);
-  if (r->name) FAIL(r, "mesh file '%s' is damaged: it has two sections $PhysicalNames", r->spec->file);
+    FAIL(r, "mesh file '%s' is damaged: its section $PhysicalNames has no count", r->told);
+  if (r->name) FAIL(r, "mesh file '%s' is damaged: it has two sections $PhysicalNames", r->told);
   PetscCall(PetscCalloc1(num, &r->name));
   for (int i = 0; i < num; ++i) {
     int         dim, tag, start = 0;
     const char *open  = fgets(line, sizeof(line), file) ? strchr(line, '"') : NULL;
     char       *close = open ? strrchr(line, '"') : NULL;
     if (!close || close == open || sscanf(line, "%d %d %n", &dim, &tag, &start) != 2)
-      FAIL(r, "mesh file '%s' is damaged: its section $PhysicalNames ends too early", r->spec->file);
+      FAIL(r, "mesh file '%s' is damaged: its section $PhysicalNames ends too early", r->told);
     if (open != line + start || !strchr(" \t", line[start - 1])) /* PETSc takes what stands there for the number's */
-      FAIL(r, "mesh file '%s' is damaged: a line of $PhysicalNames is not  dimension number \"name\"", r->spec->file);
+      FAIL(r, "mesh file '%s' is damaged: a line of $PhysicalNames is not  dimension number \"name\"", r->told);
     *close = 0;
-    if (!TextIsPlain(open + 1, "")) FAIL(r, "mesh file '%s': the name \"%s\" of a physical group has a control character in it", r->spec->file, open + 1);
+    if (!TextIsPlain(open + 1, "")) FAIL(r, "mesh file '%s': the name \"%s\" of a physical group has a control character in it", r->told, open + 1);
     if (strlen(open + 1) >= MORTISE_NAME)
-      FAIL(r, "mesh file '%s': the name \"%s\" of a physical group is longer than %d characters", r->spec->file, open + 1, MORTISE_NAME - 1);
+      FAIL(r, "mesh file '%s': the name \"%s\" of a physical group is longer than %d characters", r->told, open + 1, MORTISE_NAME - 1);
     r->name[r->num_names] = (GroupName){.dim = dim, .tag = tag};
     PetscCall(PetscStrncpy(r->name[r->num_names++].name, open + 1, MORTISE_NAME));
   }
@@ -95,7 +96,7 @@ static PetscErrorCode CheckEntities_Private(Reader *r, FILE *file, PetscBool bin
             FAIL(
                 r,
                 "mesh file '%s': physical group 1 of dimension %d names an entity backwards; write it without the minus sign, or give the group another number",
-                r->spec->file, d);
+                r->told, d);
         }
       }
     }
@@ -109,11 +110,11 @@ static PetscErrorCode ScanHeader_Private(Reader *r, FILE *file)
 
   PetscFunctionBegin;
   if (!fgets(line, sizeof(line), file) || strncmp(line, "$MeshFormat", 11))
-    FAIL(r, "mesh file '%s' is not a gmsh file: it does not begin with $MeshFormat", r->spec->file);
+    FAIL(r, "mesh file '%s' is not a gmsh file: it does not begin with $MeshFormat", r->told);
   if (!fgets(line, sizeof(line), file) || sscanf(line, "%d.%d %d", &r->major, &minor, &binary) < 1)
-    FAIL(r, "mesh file '%s' is damaged: it has no format version", r->spec->file);
+    FAIL(r, "mesh file '%s' is damaged: it has no format version", r->told);
   if (!(r->major == 2 && minor == 2) && !(r->major == 4 && minor == 1))
-    FAIL(r, "mesh file '%s' has gmsh format version %d.%d; 2.2 and 4.1 can be read (gmsh -format msh41)", r->spec->file, r->major, minor);
+    FAIL(r, "mesh file '%s' has gmsh format version %d.%d; 2.2 and 4.1 can be read (gmsh -format msh41)", r->told, r->major, minor);
   r->binary = (PetscBool)(binary == 1);
   while (!r->message[0] && fgets(line, sizeof(line), file) && strncmp(line, "$Nodes", 6)) {
     if (!strncmp(line, "$PhysicalNames", 14))
@@ -130,7 +131,7 @@ static PetscErrorCode ReadHeader_Private(Reader *r)
   PetscErrorCode status;
 
   PetscFunctionBegin;
-  if (!file) FAIL(r, "mesh file '%s' cannot be opened", r->spec->file);
+  if (!file) FAIL(r, "mesh file '%s' cannot be opened", r->told);
   status = ScanHeader_Private(r, file);
   fclose(file);
   PetscCall(status);
@@ -143,10 +144,9 @@ static PetscErrorCode ReadHeader_Private(Reader *r)
          "mesh file '%s' is truncated or damaged: its nodes or elements are incomplete, two nodes have one number, a position is no finite number, or an "
          "element "
          "names a node twice or one that is not there",
-         r->spec->file);
+         r->told);
   if (range)
-    FAIL(r, "mesh file '%s': the numbers of its nodes go up to %lld; number them from 1 on (gmsh does when it writes format 4.1)", r->spec->file,
-         (long long)range);
+    FAIL(r, "mesh file '%s': the numbers of its nodes go up to %lld; number them from 1 on (gmsh does when it writes format 4.1)", r->told, (long long)range);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -187,21 +187,21 @@ static PetscErrorCode Load_Private(Reader *r, PetscBool curved)
   PetscFunctionBegin;
   PetscCall(DMDestroy(&r->dm));
   PetscCall(PetscPushErrorHandler(KeepMessage_Private, text));
-  GuardBegin("mesh file '%s' is damaged: its numbers contradict each other", r->spec->file); /* what ForestCheckGmsh does not see: binary entities, say */
+  GuardBegin("mesh file '%s' is damaged: its numbers contradict each other", r->told); /* what ForestCheckGmsh does not see: binary entities, say */
   const PetscErrorCode status = LoadWithOptions_Private(r->spec->file, r->major, curved, &r->dm);
   GuardEnd();
   PetscCall(PetscPopErrorHandler());
   if (status) {
     r->dm = NULL;
-    if (strstr(text, "partially interpolated")) FAIL(r, "mesh file '%s' has no cells of dimension %" PetscInt_FMT, r->spec->file, r->spec->dim);
+    if (strstr(text, "partially interpolated")) FAIL(r, "mesh file '%s' has no cells of dimension %" PetscInt_FMT, r->told, r->spec->dim);
     static const char unknown[] = "Plex facet for Gmsh element ";
     const char       *element   = strstr(text, unknown);
     if (element)
       FAIL(r,
            "mesh file '%s': element %d of a boundary group is no facet of a cell: the two have vertices of their own there, as where surfaces of a .geo lie on "
-           "one another and do not share points and lines",
-           r->spec->file, atoi(element + sizeof(unknown) - 1));
-    FAIL(r, "mesh file '%s' cannot be read, it may be truncated or damaged (%s)", r->spec->file, text[0] ? text : "no reason known");
+           "one another and do not share points and lines (Coherence; joins them; Geometry.AutoCoherence = 0 keeps what is extruded apart)",
+           r->told, atoi(element + sizeof(unknown) - 1));
+    FAIL(r, "mesh file '%s' cannot be read, it may be truncated or damaged (%s)", r->told, text[0] ? text : "no reason known");
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -257,10 +257,9 @@ static PetscErrorCode CheckDimension_Private(Reader *r)
   PetscFunctionBegin;
   PetscCall(DMGetDimension(r->dm, &dim));
   PetscCall(DMPlexGetHeightStratum(r->dm, 0, &start, &end));
-  if (end == start || dim < r->spec->dim) FAIL(r, "mesh file '%s' has no cells of dimension %" PetscInt_FMT, r->spec->file, r->spec->dim);
+  if (end == start || dim < r->spec->dim) FAIL(r, "mesh file '%s' has no cells of dimension %" PetscInt_FMT, r->told, r->spec->dim);
   if (dim > r->spec->dim)
-    FAIL(r, "mesh file '%s' has cells of dimension %" PetscInt_FMT ", but a mesh of dimension %" PetscInt_FMT " is asked for", r->spec->file, dim,
-         r->spec->dim);
+    FAIL(r, "mesh file '%s' has cells of dimension %" PetscInt_FMT ", but a mesh of dimension %" PetscInt_FMT " is asked for", r->told, dim, r->spec->dim);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -307,10 +306,10 @@ static PetscErrorCode LoadShapes_Private(Reader *r)
   if (r->message[0]) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(FindShapes_Private(r, &box, &simplex, &other));
   PetscCall(DMPlexGetHeightStratum(r->dm, 0, NULL, &r->num_elements));
-  if (other) FAIL(r, "mesh file '%s' has cells of shape '%s'; only quads, hexes, triangles and tetrahedra can be used", r->spec->file, other);
+  if (other) FAIL(r, "mesh file '%s' has cells of shape '%s'; only quads, hexes, triangles and tetrahedra can be used", r->told, other);
   if (!simplex) PetscFunctionReturn(PETSC_SUCCESS);
   if (box && r->spec->dim == 3)
-    FAIL(r, "mesh file '%s' has hexes and tetrahedra in one mesh; use either, or let gmsh make hexes of all (Mesh.SubdivisionAlgorithm = 2)", r->spec->file);
+    FAIL(r, "mesh file '%s' has hexes and tetrahedra in one mesh; use either, or let gmsh make hexes of all (Mesh.SubdivisionAlgorithm = 2)", r->told);
   if (!hybrid) {
     PetscCall(GeometryOrder_Private(r->dm, &order));
     if (order > 1) PetscCall(Load_Private(r, PETSC_FALSE));
@@ -320,7 +319,7 @@ static PetscErrorCode LoadShapes_Private(Reader *r)
     fprintf(stderr,
             "mortise: note: mesh file '%s': curved triangles or tetrahedra are cut into %s with straight sides; gmsh's Mesh.SubdivisionAlgorithm keeps the "
             "curvature\n",
-            r->spec->file, r->spec->dim == 2 ? "quads" : "hexes");
+            r->told, r->spec->dim == 2 ? "quads" : "hexes");
   PetscCall(Convert_Private(r));
   r->mesh->from_simplices = (PetscBool)(r->spec->dim == 3);
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -409,7 +408,7 @@ static PetscErrorCode ReadCells_Private(Reader *r)
   PetscCall(DMPlexGetHeightStratum(r->dm, 0, &start, &end));
   PetscCall(DMPlexGetDepthStratum(r->dm, 0, &k.first_vertex, &k.end_vertex));
   PetscCall(GeometryOrder_Private(r->dm, &k.q));
-  if (k.q > FOREST_MAX_ORDER) FAIL(r, "mesh file '%s' has cells of order %" PetscInt_FMT "; the highest is %d", r->spec->file, k.q, FOREST_MAX_ORDER);
+  if (k.q > FOREST_MAX_ORDER) FAIL(r, "mesh file '%s' has cells of order %" PetscInt_FMT "; the highest is %d", r->told, k.q, FOREST_MAX_ORDER);
   k.n                  = k.dim == 2 ? (k.q + 1) * (k.q + 1) : (k.q + 1) * (k.q + 1) * (k.q + 1);
   mesh->dim            = k.dim;
   mesh->num_cells      = end - start;
@@ -484,7 +483,7 @@ static PetscErrorCode Orient_Private(Reader *r)
     for (PetscInt i = 0; i < size; ++i) extent = PetscMax(extent, PetscAbsReal(mesh->cell_geometry[3 * i] - mesh->cell_geometry[0]));
     for (PetscInt i = 0; i < size; ++i) {
       if (PetscAbsReal(mesh->cell_geometry[3 * i + 2] - z) > 1e-9 * extent)
-        FAIL(r, "mesh file '%s' is not plane: a mesh of dimension 2 must have one z for all points, here %g and %g occur", r->spec->file, (double)z,
+        FAIL(r, "mesh file '%s' is not plane: a mesh of dimension 2 must have one z for all points, here %g and %g occur", r->told, (double)z,
              (double)mesh->cell_geometry[3 * i + 2]);
       mesh->cell_geometry[3 * i + 2] = 0;
     }
@@ -589,7 +588,7 @@ static PetscErrorCode ReadBodies_Private(Reader *r)
     for (PetscInt k = 0; k < num_points; ++k) {
       if (point[k] < start || point[k] >= end) continue;
       PetscInt *b = &mesh->cell_body[point[k] - start];
-      if (*b >= 0 && *b != body) FAIL(r, "mesh file '%s': a cell is in two bodies, \"%s\" and \"%s\"", r->spec->file, mesh->body_name[*b], name);
+      if (*b >= 0 && *b != body) FAIL(r, "mesh file '%s': a cell is in two bodies, \"%s\" and \"%s\"", r->told, mesh->body_name[*b], name);
       *b = body;
     }
     PetscCall(PetscFree(point));
@@ -627,9 +626,9 @@ static PetscErrorCode MarkFacets_Private(Reader *r, PetscInt start, PetscInt end
     char name[MORTISE_NAME];
     PetscCall(NameOf_Private(r, mesh->dim - 1, tags[i], name));
     for (PetscInt k = 0; k < 3; ++k)
-      if (!strcmp(name, reserved[k])) FAIL(r, "mesh file '%s': a boundary group cannot be called \"%s\", that name is reserved", r->spec->file, name);
+      if (!strcmp(name, reserved[k])) FAIL(r, "mesh file '%s': a boundary group cannot be called \"%s\", that name is reserved", r->told, name);
     PetscCall(Enter_Private(mesh->boundary_name, &mesh->num_boundaries, name, &bit));
-    if (bit >= 64) FAIL(r, "mesh file '%s' has more than 64 boundary groups", r->spec->file);
+    if (bit >= 64) FAIL(r, "mesh file '%s' has more than 64 boundary groups", r->told);
     PetscCall(TaggedPoints_Private(label, tags[i], &num_points, &point));
     for (PetscInt k = 0; k < num_points; ++k)
       if (point[k] >= start && point[k] < end) mask[point[k] - start] |= (uint64_t)1 << bit;
@@ -667,7 +666,7 @@ static PetscErrorCode ReadFields_Private(Reader *r)
   PetscFunctionBegin;
   if (r->binary) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ForestReadFields(r->spec->file, r->major, r->num_elements, r->source, r->mesh, &damage));
-  if (damage) FAIL(r, "mesh file '%s' %s", r->spec->file, damage);
+  if (damage) FAIL(r, "mesh file '%s' %s", r->told, damage);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -676,7 +675,7 @@ PetscErrorCode ForestReadGmsh(const ForestSpec *spec, CoarseMesh *mesh, PetscInt
 {
   static PetscErrorCode (*const step[])(Reader *) = {ReadHeader_Private,     LoadShapes_Private, ReadCells_Private,      Orient_Private,
                                                      NumberVertices_Private, ReadBodies_Private, ReadBoundaries_Private, ReadFields_Private};
-  Reader r                                        = {.spec = spec, .message = message, .length = length, .mesh = mesh};
+  Reader r = {.spec = spec, .told = spec->told[0] ? spec->told : spec->file, .message = message, .length = length, .mesh = mesh};
 
   PetscFunctionBegin;
   message[0] = 0;

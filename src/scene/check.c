@@ -222,7 +222,7 @@ static PetscErrorCode CheckSides_Private(const ContactEntry *c, const Facets *f,
     if ((f->forest->boundary[v] & both) != both) continue;
     PetscCall(SceneVertex(f->whole, v, X));
     PetscCall(ErrorInput("%s: '%s' and '%s' share vertex %d of the mesh at (%g, %g, %g); bodies in contact must have vertices of their own (gmsh merges points "
-                         "closer than 1e-8 of the model, and those that Extrude makes twice)",
+                         "closer than 1e-8 of the model, and those that Extrude makes twice; Geometry.AutoCoherence = 0 keeps them apart)",
                          NodeWhere(c->node), c->nonmortar, c->mortar, (int)v, (double)X[0], (double)X[1], (double)X[2]));
   }
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -326,6 +326,7 @@ PetscErrorCode SceneMakeMesh(Scene s)
   PetscCallMPI(MPI_Bcast(&r, (PetscMPIInt)sizeof(r), MPI_CHAR, 0, s->comm));
   PetscCall(PetscStrncpy(s->temporary, r.temporary, sizeof(s->temporary)));
   PetscCall(PetscStrncpy(s->data.mesh.file, r.file, sizeof(s->data.mesh.file)));
+  if (r.temporary[0]) PetscCall(PetscStrncpy(s->data.mesh.told, s->mesh_file, sizeof(s->data.mesh.told)));
   s->subdivided = (PetscBool)r.subdivided;
   PetscCheckInput(!r.message[0], "%s", r.message);
   if (order && HasSuffix_Private(s->mesh_file, ".msh"))

@@ -347,6 +347,15 @@ def test_gmsh_rejects(check):
     refused(check(geo=GEO + "Line(99) = {77, 78};\n"), "gmsh rejects", "squares.geo")
 
 
+def test_meshes_are_called_by_the_name_of_their_geo(check):
+    """Not by that of the file that gmsh left, which is gone by then."""
+    prisms = 'Point(1) = {0, 0, 0, 1}; Point(2) = {1, 0, 0, 1}; Point(3) = {0, 1, 0, 1}; Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 1};\n' \
+             'Curve Loop(1) = {1:3}; Plane Surface(1) = {1}; a[] = Extrude {0, 0, 1} { Surface{1}; Layers{1}; Recombine; }; Physical Volume("lower") = {a[1]};\n'
+    result = check([("plane_strain", "3d")], geo=prisms)
+    refused(result, "squares.geo' has cells of shape 'triangular_prism'")
+    assert "tmp" not in result.stderr, result
+
+
 def test_gmsh_syntax(check):
     refused(check(geo="foo bar;\n"), "gmsh rejects", "bar|foo")
 
