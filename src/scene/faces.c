@@ -11,6 +11,7 @@
 #include "sceneimpl.h"
 
 #define MOST 64 /* colours that are told apart */
+#define APART 8 /* most of them for which faces beside one face have different ones: a block in space takes six, a plate with studs any number */
 
 typedef struct {
   PetscInt  entity, side; /* vertex (plane) or edge (space) of the leaf facet, and side of the coarse mesh that this lies in: 2 dim cell + place */
@@ -219,8 +220,9 @@ static uint64_t Taken_Private(const PetscInt first[], PetscInt (*pair)[2], Petsc
   return taken;
 }
 
-/* Colours of faces in the order of their roots, each the least that neither a face beside it nor one beside that has yet. */
-static PetscErrorCode Colours_Private(PetscInt num, const Rim rim[], PetscInt parent[], PetscInt num_sides, int8_t colour[], PetscInt *num_colours)
+/* Colours of faces in the order of their roots, each the least that neither a face beside it nor, apart, one beside that has yet. */
+static PetscErrorCode Colours_Private(PetscInt num, const Rim rim[], PetscInt parent[], PetscInt num_sides, PetscBool apart, int8_t colour[],
+                                      PetscInt *num_colours)
 {
   PetscInt num_pairs, (*pair)[2], *first;
 
@@ -237,7 +239,7 @@ static PetscErrorCode Colours_Private(PetscInt num, const Rim rim[], PetscInt pa
   for (PetscInt face = 0; face < num_sides; ++face) {
     uint64_t taken = Taken_Private(first, pair, face, face, colour);
     PetscInt own   = 0;
-    for (PetscInt k = first[face]; k < first[face + 1]; ++k) taken |= Taken_Private(first, pair, pair[k][1], face, colour);
+    for (PetscInt k = first[face]; apart && k < first[face + 1]; ++k) taken |= Taken_Private(first, pair, pair[k][1], face, colour);
     if (first[face] == first[face + 1]) continue;
     while (own < MOST - 1 && taken >> own & 1) ++own;
     colour[face] = (int8_t)own;
@@ -270,7 +272,8 @@ PetscErrorCode SceneColourFaces(Forest forest, PetscInt group, PetscInt *num_col
           parent[PetscMax(Root_Private(parent, rim[i].side), Root_Private(parent, rim[j].side))] =
               PetscMin(Root_Private(parent, rim[i].side), Root_Private(parent, rim[j].side));
   }
-  PetscCall(Colours_Private(num, rim, parent, num_sides, *colour, num_colours));
+  PetscCall(Colours_Private(num, rim, parent, num_sides, PETSC_TRUE, *colour, num_colours));
+  if (*num_colours > APART) PetscCall(Colours_Private(num, rim, parent, num_sides, PETSC_FALSE, *colour, num_colours));
   PetscCall(PetscFree(parent));
   PetscCall(PetscFree(rim));
   PetscFunctionReturn(PETSC_SUCCESS);
