@@ -62,7 +62,7 @@ PetscErrorCode PathStabilise(Path *p, PetscBool *changed)
       PetscCall(PetscPrintf(
           ForestComm(l->forest),
           "note: the equilibrium found at t = %g is unstable; a stable one takes its place, there and where that happens again (load.stable); "
-          "energy falls by %.2g %% of the strain energy along the mode of it: nothing, if the mesh is off by more, as where a round body is free to turn\n",
+          "along the mode energy falls by %.2g %% of the strain energy; less than the mesh is off, as of a round body free to turn, means nothing\n",
           (double)l->state.t, (double)(100 * report.fall)));
   } else
     PetscCall(Keep_Private(l, &unstable));

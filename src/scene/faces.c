@@ -1,8 +1,8 @@
 /* Faces of a contact side. Where the mortar side has an edge, a facet of the other side that lies across it sees two faces, and one multiplier for both
    would hold a mean of their gaps: of one that is closed under a punch and of one that is open beside it. So what lies across an edge is met by multipliers
-   of its own: the pair is made once for each colour. Faces that share an edge or a corner have different ones, and so have those beside one face: a facet that
-   is as long as a flank sees what is before and behind it, and would take the jump from one to the other for a gap. So is a pair of one surface made, of which
-   a node on an edge may touch with one of its faces while the other one sees the far side of a hollow.
+   of its own: the pair is made once for each colour. Faces that share an edge or a corner have different ones, and so have two with one face between them: rays
+   of a facet that pass the end of a flank run through the play along the next one and meet the flank behind it, and the gap would jump from one to the other.
+   So is a pair of one surface made, of which a node on an edge may touch with one of its faces while the other one sees the far side of a hollow.
 
    A convex edge parts what no facet faces squarely on both sides (CONTACT_OPPOSE): over a blunter one both gaps are those of the facet, and constraints for
    each would be more than it has nodes. In a concave one a corner of the other side is held by both.
@@ -10,8 +10,8 @@
    Faces are those of the coarse mesh and its curved sides: refinement changes none. */
 #include "sceneimpl.h"
 
-#define MOST 64 /* colours that are told apart */
-#define APART 8 /* most of them for which faces beside one face have different ones: a block in space takes six, a plate with studs any number */
+#define MOST 64  /* colours that are told apart */
+#define AROUND 8 /* most faces round one that is between two of them; what has more, as the front of a rack, is what they stand on */
 
 typedef struct {
   PetscInt  entity, side; /* vertex (plane) or edge (space) of the leaf facet, and side of the coarse mesh that this lies in: 2 dim cell + place */
@@ -185,7 +185,7 @@ PetscErrorCode SceneCorner(Forest forest, PetscInt group, PetscReal *corner, Pet
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Pairs of faces, by their roots, that meet in an edge or a corner, both ways. */
+/* Pairs of faces, by their roots, that meet in an edge or a corner, both ways, each once. */
 static PetscErrorCode Beside_Private(PetscInt num, const Rim rim[], PetscInt parent[], PetscInt *num_pairs, PetscInt (**pair)[2])
 {
   PetscInt room = 0;
@@ -208,10 +208,14 @@ static PetscErrorCode Beside_Private(PetscInt num, const Rim rim[], PetscInt par
       }
   }
   qsort(*pair, (size_t)*num_pairs, sizeof(**pair), ComparePairs_Private);
+  room       = *num_pairs;
+  *num_pairs = 0;
+  for (PetscInt k = 0; k < room; ++k)
+    if (k == 0 || ComparePairs_Private(&(*pair)[k], &(*pair)[*num_pairs - 1])) PetscCall(PetscArraycpy((*pair)[(*num_pairs)++], (*pair)[k], 2));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Colours, one bit each, of those faces beside one, pair[first[face]] .. pair[first[face + 1]], that come before a root. */
+/* Colours, one bit each, that faces before `before` have of those beside a face, pair[first[face]] .. pair[first[face + 1]]. */
 static uint64_t Taken_Private(const PetscInt first[], PetscInt (*pair)[2], PetscInt face, PetscInt before, const int8_t colour[])
 {
   uint64_t taken = 0;
@@ -220,9 +224,8 @@ static uint64_t Taken_Private(const PetscInt first[], PetscInt (*pair)[2], Petsc
   return taken;
 }
 
-/* Colours of faces in the order of their roots, each the least that neither a face beside it nor, apart, one beside that has yet. */
-static PetscErrorCode Colours_Private(PetscInt num, const Rim rim[], PetscInt parent[], PetscInt num_sides, PetscBool apart, int8_t colour[],
-                                      PetscInt *num_colours)
+/* Colours of faces in the order of their roots, each the least that no face beside it has yet, nor one that a face is between. */
+static PetscErrorCode Colours_Private(PetscInt num, const Rim rim[], PetscInt parent[], PetscInt num_sides, int8_t colour[], PetscInt *num_colours)
 {
   PetscInt num_pairs, (*pair)[2], *first;
 
@@ -230,17 +233,18 @@ static PetscErrorCode Colours_Private(PetscInt num, const Rim rim[], PetscInt pa
   PetscCall(Beside_Private(num, rim, parent, &num_pairs, &pair));
   PetscCall(PetscCalloc1(num_sides + 1, &first));
   for (PetscInt k = 0; k < num_pairs; ++k) ++first[pair[k][0] + 1];
-  for (PetscInt i = 0; i < num_sides; ++i) {
-    first[i + 1] += first[i];
-    colour[i] = -1;
-  }
+  for (PetscInt i = 0; i < num_sides; ++i) first[i + 1] += first[i];
+  for (PetscInt i = 0; i < num_sides; ++i) colour[i] = -1;
   for (PetscInt i = 0; i < num; ++i) colour[Root_Private(parent, rim[i].side)] = 0;
   *num_colours = 1;
   for (PetscInt face = 0; face < num_sides; ++face) {
+    if (first[face] == first[face + 1]) continue;
     uint64_t taken = Taken_Private(first, pair, face, face, colour);
     PetscInt own   = 0;
-    for (PetscInt k = first[face]; apart && k < first[face + 1]; ++k) taken |= Taken_Private(first, pair, pair[k][1], face, colour);
-    if (first[face] == first[face + 1]) continue;
+    for (PetscInt k = first[face]; k < first[face + 1]; ++k) {
+      const PetscInt between = pair[k][1];
+      if (first[between + 1] - first[between] <= AROUND) taken |= Taken_Private(first, pair, between, face, colour);
+    }
     while (own < MOST - 1 && taken >> own & 1) ++own;
     colour[face] = (int8_t)own;
     *num_colours = PetscMax(*num_colours, own + 1);
@@ -272,8 +276,7 @@ PetscErrorCode SceneColourFaces(Forest forest, PetscInt group, PetscInt *num_col
           parent[PetscMax(Root_Private(parent, rim[i].side), Root_Private(parent, rim[j].side))] =
               PetscMin(Root_Private(parent, rim[i].side), Root_Private(parent, rim[j].side));
   }
-  PetscCall(Colours_Private(num, rim, parent, num_sides, PETSC_TRUE, *colour, num_colours));
-  if (*num_colours > APART) PetscCall(Colours_Private(num, rim, parent, num_sides, PETSC_FALSE, *colour, num_colours));
+  PetscCall(Colours_Private(num, rim, parent, num_sides, *colour, num_colours));
   PetscCall(PetscFree(parent));
   PetscCall(PetscFree(rim));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -20,3 +20,4 @@ b[] = Extrude {0, 0, 0.3} { Surface{2}; Layers{1}; Recombine; };
 Physical Volume("blade") = {a[1]}; Physical Volume("disk") = {b[1]};
 Physical Surface("root") = {a[3], a[4], a[5], a[6]}; Physical Surface("top") = {a[8]}; Physical Surface("middle") = {a[9], b[10]};
 Physical Surface("held") = {b[2], b[3]}; Physical Surface("groove") = {b[5], b[6], b[7], b[8]}; Physical Surface("front") = {1, 2};
+Physical Surface("blade_skin") = {1, a[0], a[2], a[3], a[4], a[5], a[6], a[7]}; Physical Surface("disk_skin") = {2, b[0], b[4], b[5], b[6], b[7], b[8]};

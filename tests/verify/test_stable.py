@@ -62,13 +62,13 @@ Physical Curve("rim") = {1:4}; Physical Curve("above") = {11}; Physical Curve("b
 
 
 def fall(result):
-    """Of the energy, in percent, on the way to the stable equilibrium."""
+    """Of the energy along the mode, in percent."""
     return float(re.search(r"energy falls by (\S+) % of the strain energy", result.stdout).group(1))
 
 
 def test_fall_of_the_energy(run, tmp_path):
-    """Of a column that buckles some percent along the mode; of a disc between plates, whose mesh alone says that it is to turn, less than a thousandth: an error of 3.4 % in the energy norm
-    leaves room for as much."""
+    """Of a column that buckles some percent along the mode. Of a disc between plates, whose mesh alone says that it is to turn, less than what its
+    error leaves room for, 3.4 % in the energy norm."""
     (tmp_path / "disc.geo").write_text(DISC)
     disc = solved(run, json.dumps({"mesh": {"file": "disc.geo", "order": 2}, "model": "plane_strain", "order": 2, "output": {"fields": False},
                                    "body": {"disc": {"material": "m"}, "lid": {"material": "r", "motion": {"y": "-0.1*t"}}, "floor": {"material": "r"}},
@@ -76,7 +76,7 @@ def test_fall_of_the_energy(run, tmp_path):
                                    "contact": {"a": {"nonmortar": "rim", "mortar": "above"}, "b": {"nonmortar": "rim", "mortar": "below"}}}))
     buckled = solved(run, column(tmp_path, 3 * EULER, 1))
     print("fall, %", fall(disc), fall(buckled))
-    assert 0 <= fall(disc) < 0.34 and fall(buckled) > 1
+    assert 0 < fall(disc) < 100 * 0.034**2 and fall(buckled) > 1
 
 
 @pytest.mark.parametrize("repeat", ["step", "path"])
