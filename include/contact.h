@@ -150,9 +150,11 @@ void ContactPairSetHull(ContactPair, ContactHull, const PetscInt part[], const P
 
 /* A pair of one surface with itself (spec.self): both surfaces are given alike, facet by facet. Of two facets that face each other the one with the lower
    number precedence[num_facets] is the nonmortar one; no two are alike. What a facet sees first and that does not follow it hides what is behind, and covers
-   nothing; nor do facets that are not met[num_facets] (NULL: all are). NULL (as created): all facets see all that face them, both ways. Borrowed. Not
-   collective. */
-void ContactPairSetPrecedence(ContactPair, const PetscInt precedence[], const PetscBool met[]);
+   nothing. NULL (as created): all facets see all that face them, both ways. Borrowed. Not collective. */
+void ContactPairSetPrecedence(ContactPair, const PetscInt precedence[]);
+/* Facets of the mortar surface that are not met[its num_facets] hide what is behind them, too, and cover nothing: they belong to another part of the pair. NULL
+   (as created): all are met. Borrowed. Not collective. */
+void ContactPairSetMet(ContactPair, const PetscBool met[]);
 
 /* Does a surface make an edge with its image in a plane of symmetry, by its unit normal, at corner k of facet f, corner = (corners of a facet) f + k? It
    turns there by twice the angle between its normal and the plane. Reference positions. Not collective. */

@@ -38,7 +38,7 @@ struct _p_ContactPair {
   PetscBool                 axisymmetric, node_to_segment, standard;
   PetscBool                 self;                /* both sides are one surface */
   const PetscInt           *precedence;          /* borrowed: of its facets; NULL: none */
-  const PetscBool          *met;                 /* borrowed: those that cover others; NULL: all */
+  const PetscBool          *met;                 /* borrowed: mortar facets that cover others; NULL: all */
   PetscBool                 held;                /* directions do not vary */
   PetscBool                 frozen_segmentation; /* forces without the motion of lines of the mortar side */
   PetscInt                  num_degenerate;      /* overlaps of the last evaluation that could not be used */

@@ -68,9 +68,14 @@ void ContactPairFreezeSegmentation(ContactPair pair, PetscBool frozen)
   pair->frozen_segmentation = frozen;
 }
 
-void ContactPairSetPrecedence(ContactPair pair, const PetscInt precedence[], const PetscBool met[])
+void ContactPairSetPrecedence(ContactPair pair, const PetscInt precedence[])
 {
   pair->precedence   = precedence;
+  pair->state.stands = PETSC_FALSE;
+}
+
+void ContactPairSetMet(ContactPair pair, const PetscBool met[])
+{
   pair->met          = met;
   pair->state.stands = PETSC_FALSE;
 }

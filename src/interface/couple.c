@@ -130,7 +130,7 @@ static PetscErrorCode Subtract_Private(Interface p, Contact *c)
 PetscErrorCode ContactCreate_Private(Interface p, const ContactSpec *spec, Contact *c)
 {
   const PetscBool     axisymmetric = (PetscBool)(p->spec->model == MODEL_AXISYMMETRIC);
-  const SurfaceFacets own = {.group = spec->nonmortar}, other = {.group = spec->mortar, .colour = spec->part, .face = spec->face, .whole = spec->self};
+  const SurfaceFacets own = {.group = spec->nonmortar}, other = {.group = spec->mortar, .colour = spec->part, .face = spec->face};
 
   PetscFunctionBegin;
   PetscCall(PetscMemzero(c, sizeof(*c)));
@@ -163,6 +163,7 @@ PetscErrorCode ContactCreate_Private(Interface p, const ContactSpec *spec, Conta
   if (c->law->ties || higher || p->spec->kinematics != KINEMATICS_SMALL) ContactPairSetSoftness(c->pair, c->softness);
   PetscCall(ListFacets_Private(p, c));
   PetscCall(PetscCalloc1(c->side[0].num_facets, &c->watch));
+  ContactPairSetMet(c->pair, c->side[1].met);
   SearchDistance_Private(c);
   View_Private(c);
   if (!c->law->ties) PetscCall(ContactFreedom_Private(p, c));

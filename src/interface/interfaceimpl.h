@@ -93,7 +93,7 @@ typedef struct {
  hanging corner with it: their multiplier functions are made together */
   PetscInt  *node_first, *node_facet; /* [num_nodes+1] offsets: facets that carry weight to the node, those with it as a true node */
   PetscBool *rim;                     /* [num_nodes] as in ContactSurface; NULL: none */
-  PetscBool *met;                     /* [num_facets] of a whole surface of which one colour is met; NULL: all of it */
+  PetscBool *met;                     /* [num_facets] facets of the colour that is met; NULL: all of them */
   PetscReal *X, *x, *du;              /* [num_nodes][dim] reference and current position; increment under discussion */
   PetscReal *mirror;                  /* normals of symmetry planes as in ContactSurface, else 0 */
   PetscReal *frame;                   /* [num_nodes][dim][dim] rows: directions of the dofs */
@@ -247,11 +247,10 @@ struct _p_Interface {
 };
 
 PetscErrorCode SurfaceFields_Private(Interface, Surface *); /* after the topology */
-/* Facets of a boundary group, with face (ContactSpec): of one colour; whole: of all, and Surface.met tells those of the colour. */
+/* Facets of a boundary group; with face (ContactSpec) Surface.met tells those of the colour. */
 typedef struct {
   PetscInt      group, colour;
   const int8_t *face;
-  PetscBool     whole;
 } SurfaceFacets;
 PetscErrorCode SurfaceCreate_Private(Interface, const SurfaceFacets *, Surface *);
 /* lattice.c: after the corners: nodes on the lattices of the facets, rows of those that hang. */

@@ -101,7 +101,8 @@ static PetscErrorCode Look_Private(Interface p, Contact *c, Facing *to, PetscBoo
   PetscInt              num;
 
   PetscFunctionBegin;
-  ContactPairSetPrecedence(c->pair, NULL, NULL);
+  ContactPairSetPrecedence(c->pair, NULL);
+  ContactPairSetMet(c->pair, NULL);
   PetscCall(ContactPairEvaluate(c->pair, &side[0], &side[1], NULL, NULL, PETSC_FALSE, PETSC_FALSE, &num, &facets, failed));
   ContactPairGetSegments(c->pair, &num, &segment);
   for (PetscInt f = 0; f < n; ++f) {
@@ -202,7 +203,8 @@ PetscErrorCode ContactRoles_Private(Interface p, PetscInt num, Contact part[], V
     Order_Private(p, c, second);
     for (PetscInt i = 0; i < num; ++i) {
       part[i].precedence = c->precedence;
-      ContactPairSetPrecedence(part[i].pair, c->precedence, part[i].side[1].met);
+      ContactPairSetPrecedence(part[i].pair, c->precedence);
+      ContactPairSetMet(part[i].pair, part[i].side[1].met);
     }
   }
   PetscCall(PetscFree4(facing.partner, facing.distance, facing.pressed, second));

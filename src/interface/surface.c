@@ -75,7 +75,6 @@ static PetscErrorCode SurfaceTopology_Private(const ForestTables *t, const Surfa
     const PetscInt *leaf = t->facet_leaf + 2 * (f - first);
     PetscInt        vertex[4];
     if (!IsOuter_Private(t, of->group, f)) continue;
-    if (of->face && !of->whole && of->face[ForestCoarseSide(t, leaf[0], f)] != of->colour) continue;
     FacetVertices_Private(t, f, leaf[0], vertex);
     for (PetscInt k = 0; k < s->corners; ++k) {
       if (number[vertex[k]] < 0) {
@@ -197,7 +196,7 @@ PetscErrorCode SurfaceCreate_Private(Interface p, const SurfaceFacets *of, Surfa
   PetscCall(SurfaceNeighbours_Private(s));
   PetscCall(SurfaceFields_Private(p, s));
   if (of->face) PetscCall(Rim_Private(t, of, s));
-  if (of->face && of->whole) PetscCall(Met_Private(t, of, s));
+  if (of->face) PetscCall(Met_Private(t, of, s));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -124,7 +124,7 @@ static void Tied_Private(const SurfaceView *s, const ContactFields *f, const Pet
   }
 }
 
-/* What another part of the pair tells at the nodes of the nonmortar side: tractions are of the face that presses most, the gap is that of the nearest. */
+/* What another part of the pair tells at the nodes of both sides: tractions are of the face that presses most, the gap is that of the nearest. */
 static void AddPart_Private(const ContactGrid *g, PetscInt first, PetscInt part, PetscInt num)
 {
   for (PetscInt to = first, n = part; to < first + num; ++to, ++n) {
@@ -138,8 +138,7 @@ static void AddPart_Private(const ContactGrid *g, PetscInt first, PetscInt part,
   }
 }
 
-/* Both sides of a pair, named by its number; of its further parts the face that they meet. first: points of the nonmortar side. Collective: fields are
-   gathered. */
+/* Both sides of a pair, named by its number; what its further parts tell enters there. first: its points. Collective: fields are gathered. */
 static PetscErrorCode AppendPair_Private(ContactGrid *g, Problem problem, PetscInt i, PetscInt *first)
 {
   const SceneData   *scene = ProblemGetScene(problem);
@@ -150,11 +149,10 @@ static PetscErrorCode AppendPair_Private(ContactGrid *g, Problem problem, PetscI
   PetscFunctionBegin;
   PetscCall(InterfaceGatherContactToAll(ProblemInterface(problem), i, &v));
   for (PetscInt k = 0; k < 2; ++k) {
-    const PetscInt     side = v->spec->part ? 1 - k : k; /* what is not kept comes last */
-    const SurfaceView *s    = side ? &v->mortar : &v->nonmortar;
-    const PetscInt     at   = AppendSurface_Private(g, s, v->spec->pair, side);
-    fields[side]            = (ContactFields){g->gap + at, g->pressure + at, g->status + at, g->shear + at, g->slip + at, g->traction + 3 * at};
-    if (side == 0 && v->spec->law != CONTACT_TIED)
+    const SurfaceView *s  = k ? &v->mortar : &v->nonmortar;
+    const PetscInt     at = AppendSurface_Private(g, s, v->spec->pair, k);
+    fields[k]             = (ContactFields){g->gap + at, g->pressure + at, g->status + at, g->shear + at, g->slip + at, g->traction + 3 * at};
+    if (k == 0 && v->spec->law != CONTACT_TIED)
       OwnNormals_Private(v, g->normal + 3 * at);
     else
       PetscCall(MeanNormals_Private(s, scene->mechanics.kinematics == KINEMATICS_SMALL ? s->X : s->x, g->normal + 3 * at));
@@ -170,9 +168,9 @@ static PetscErrorCode AppendPair_Private(ContactGrid *g, Problem problem, PetscI
       Tractions_Private(s, &fields[side], at, g);
   }
   if (v->spec->part) {
-    AddPart_Private(g, *first, (PetscInt)(fields[0].gap - g->gap), v->nonmortar.num_nodes);
-    g->num_points = points + v->mortar.num_nodes;
-    g->num_facets = facets + AllPieces_Private(&v->mortar);
+    AddPart_Private(g, *first, points, g->num_points - points);
+    g->num_points = points;
+    g->num_facets = facets;
   } else
     *first = points;
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -165,12 +165,12 @@ static PetscErrorCode Nodes_Private(RayWork w, const ContactSurface *mortar)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Does the nonmortar facet carry the constraint where it faces the mortar facet? Of a surface with itself not where that one is the nonmortar one, or belongs
-   to another part of the pair. */
+/* Does the nonmortar facet carry the constraint where it faces the mortar facet? Not where that one belongs to another part of the pair or, of a surface with
+   itself, is the nonmortar one. */
 static PetscBool Carries_Private(const ContactPair pair, PetscInt facet, PetscInt mortar)
 {
-  if (!pair->precedence) return PETSC_TRUE;
-  return (PetscBool)(pair->precedence[facet] <= pair->precedence[mortar] && (!pair->met || pair->met[mortar]));
+  if (pair->met && !pair->met[mortar]) return PETSC_FALSE;
+  return (PetscBool)(!pair->precedence || pair->precedence[facet] <= pair->precedence[mortar]);
 }
 
 /* Is there a candidate for which it does? */
