@@ -2,8 +2,8 @@
 #pragma once
 #include "solve.h"
 
-enum { PATH_UNFOLDED = 6, PATH_COARSEN, PATH_RECOVERIES };       /* rows of the table of recoveries */
-enum { PATH_INSIDE, PATH_THROUGH, PATH_ROLLING, PATH_REFUSALS }; /* why solutions are refused */
+enum { PATH_UNFOLDED = 6, PATH_COARSEN, PATH_RECOVERIES };                    /* rows of the table of recoveries */
+enum { PATH_INSIDE, PATH_THROUGH, PATH_THROWN, PATH_ROLLING, PATH_REFUSALS }; /* why solutions are refused */
 
 /* The part of a run that lives on one mesh; replaced as a whole at each adaptation. */
 typedef struct {

@@ -126,6 +126,7 @@ static PetscErrorCode Solve_Private(int argc, char **argv, int *status)
   PetscCall(SceneGetData(app.scene, &app.data));
   app.path.refusal[PATH_INSIDE].ask  = AppRefuseInside;
   app.path.refusal[PATH_THROUGH].ask = AppRefuseThrough;
+  app.path.refusal[PATH_THROWN].ask  = AppRefuseThrown;
   app.path.level                     = &app.level;
   app.path.data                      = app.data;
   PetscCall(AppOptions(&app));

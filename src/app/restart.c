@@ -22,6 +22,7 @@ static const struct {
     {"judged", offsetof(App, path.judged)},
     {"refused", offsetof(App, path.refusal[PATH_INSIDE].num)},
     {"passed_through", offsetof(App, path.refusal[PATH_THROUGH].num)},
+    {"thrown", offsetof(App, path.refusal[PATH_THROWN].num)},
     {"rolled", offsetof(App, path.refusal[PATH_ROLLING].num)},
     {"stabilised", offsetof(App, path.stabilised)},
     {"folded_left", offsetof(App, path.folded_left)},

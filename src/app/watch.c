@@ -110,6 +110,16 @@ PetscErrorCode AppRefuseThrough(Problem problem, const PetscReal from[], const S
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode AppRefuseThrown(Problem problem, const PetscReal from[], const State *state, const char **reason)
+{
+  PetscInt body;
+
+  PetscFunctionBegin;
+  PetscCall(ThrownFind(problem, from, state, &body));
+  *reason = body < 0 ? NULL : "a body that nothing holds was thrown off";
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* The step with most of them. */
 static PetscErrorCode WatchFolded_Private(App *app)
 {

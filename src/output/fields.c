@@ -132,6 +132,7 @@ const OutputField OutputSummaryFields[] = {
     {"descent_iterations", "", "iterations of descent on the energy"},
     {"refused_solutions", "", "solutions found that are none: bodies of a pair inside each other that bear nothing (-path_inside)"},
     {"passed_through", "", "and those for which a body went right through the other of such a pair (-path_through)"},
+    {"thrown_off", "", "and those for which a body that nothing holds moved farther than its own size and all that is held (-path_thrown)"},
     {"rolled_too_far", "", "load steps that were made again, shorter, for bodies rolled too far on each other in them (-path_rolling)"},
     {"stabilised", "", "unstable equilibria that gave way to stable ones (load.stable)"},
     {"folded_left", "", "cells that adaptation was to split and left as they were, for they are turned inside out at a corner (-path_unfolded)"},

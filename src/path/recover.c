@@ -226,6 +226,7 @@ static const struct {
 } Refusals[PATH_REFUSALS] = {
     [PATH_INSIDE]  = {"inside", "a solution in which bodies lie inside each other while their contact pair bears nothing is none"},
     [PATH_THROUGH] = {"through", "nor is one for which a body went right through the other of a pair that bears nothing"},
+    [PATH_THROWN]  = {"thrown", "nor is one for which a body that nothing holds moved farther than its own size and all that is held"},
     [PATH_ROLLING] = {"rolling", "a load step in which bodies roll on each other by more than 0.2 (radians) is made again, shorter"},
 };
 
