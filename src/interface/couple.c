@@ -22,28 +22,41 @@ static PetscErrorCode ListFacets_Private(Interface p, Contact *c)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Automatic search distance: half of the smaller side's extent, of tied sides a tenth: what is further apart is not tied; facets of round surfaces are nearer,
-   and refinement changes nothing. The caller's factor counts in units of the longest edge. */
-static void SearchDistance_Private(Contact *c)
+/* Diameter of the box around sides, where they are in the mesh. */
+static PetscReal Extent_Private(PetscInt num, const Surface side[])
 {
-  PetscReal extent[2], longest = 0;
-  for (PetscInt side = 0; side < 2; ++side) {
-    const Surface *s     = &c->side[side];
-    PetscReal      lo[3] = {PETSC_MAX_REAL, PETSC_MAX_REAL, PETSC_MAX_REAL}, hi[3] = {PETSC_MIN_REAL, PETSC_MIN_REAL, PETSC_MIN_REAL}, square = 0;
-    for (PetscInt n = 0; n < s->num_nodes; ++n) {
-      for (PetscInt a = 0; a < s->dim; ++a) {
-        lo[a] = PetscMin(lo[a], s->X[s->dim * n + a]);
-        hi[a] = PetscMax(hi[a], s->X[s->dim * n + a]);
+  const PetscInt dim    = side[0].dim;
+  PetscReal      square = 0;
+
+  for (PetscInt a = 0; a < dim; ++a) {
+    PetscReal lo = PETSC_MAX_REAL, hi = PETSC_MIN_REAL;
+    for (const Surface *s = side; s < side + num; ++s) {
+      for (PetscInt n = 0; n < s->num_nodes; ++n) {
+        lo = PetscMin(lo, s->X[dim * n + a]);
+        hi = PetscMax(hi, s->X[dim * n + a]);
       }
     }
+    square += PetscSqr(hi - lo);
+  }
+  return PetscSqrtReal(square);
+}
+
+/* Automatic search distance: half of the smaller side's extent, of tied sides a tenth: what is further apart is not tied; facets of round surfaces are nearer,
+   and refinement changes nothing. The caller's factor counts in units of the longest edge, as far as both sides reach: there is nothing beyond. */
+static void SearchDistance_Private(Contact *c)
+{
+  PetscReal longest = 0;
+
+  for (const Surface *s = c->side; s < c->side + 2; ++s) {
     for (PetscInt f = 0; f < s->num_facets; ++f) {
       const PetscReal measure = SurfaceFacetMeasure_Private(s, f, PETSC_FALSE);
       longest                 = PetscMax(longest, s->dim == 2 ? measure : PetscSqrtReal(measure));
     }
-    for (PetscInt a = 0; a < s->dim; ++a) square += PetscSqr(hi[a] - lo[a]);
-    extent[side] = PetscSqrtReal(square);
   }
-  c->distance = c->spec->search > 0 ? c->spec->search * longest : (c->law->ties ? NEAR : 0.5) * PetscMin(extent[0], extent[1]);
+  if (c->spec->search > 0)
+    c->distance = PetscMin(c->spec->search * longest, Extent_Private(2, c->side));
+  else
+    c->distance = (c->law->ties ? NEAR : 0.5) * PetscMin(Extent_Private(1, &c->side[0]), Extent_Private(1, &c->side[1]));
 }
 
 static void View_Private(Contact *c)

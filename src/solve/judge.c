@@ -1,5 +1,6 @@
 /* When is an iterate the solution? */
 #include "solveimpl.h"
+#include <float.h>
 #include <petsc/private/snesimpl.h>
 
 /* What a cell of incompressible material may gain or lose of its volume, whatever the forces: where prescribed motion
@@ -9,6 +10,18 @@
 PetscReal SolverTolerance_Private(const Solver s, const ProblemStatus *status)
 {
   return PetscMax(s->rtol * status->scale, status->noise);
+}
+
+/* Norms are roots of sums of squares: of forces whose squares are no numbers they judge nothing. */
+static PetscErrorCode IsJudged_Private(Solver s, const Iterate *it, PetscBool *yes)
+{
+  const ProblemStatus *status = &s->report->status;
+  PetscReal            largest;
+
+  PetscFunctionBegin;
+  PetscCall(VecNorm(it->r, NORM_INFINITY, &largest));
+  *yes = (PetscBool)(!PetscIsInfOrNanReal(status->scale) && (largest == 0 || SolverTolerance_Private(s, status) >= PetscSqrtReal(DBL_MIN)));
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* The residual is small against the nodal forces, or down at the round-off of an unloaded body; or as small as
@@ -65,10 +78,12 @@ static PetscErrorCode StepIsSmall_Private(Solver s, const Iterate *it, PetscBool
 PetscErrorCode SolverConverged_Private(Solver s, const Iterate *it, SNESConvergedReason *reason)
 {
   PetscReal pending;
-  PetscBool small, step;
+  PetscBool judged, small, step;
 
   PetscFunctionBegin;
-  *reason = SNES_CONVERGED_ITERATING;
+  PetscCall(IsJudged_Private(s, it, &judged));
+  *reason = judged ? SNES_CONVERGED_ITERATING : SNES_DIVERGED_FNORM_NAN;
+  if (!judged) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ProblemPending(s->problem, &pending));
   if (pending > 0 || !KeepsVolume_Private(s)) PetscFunctionReturn(PETSC_SUCCESS);
   small = Small_Private(s, &s->report->status, it->norm);

@@ -159,6 +159,8 @@ static PetscErrorCode Judge_Private(Solver s, Iterate *it)
   PetscCall(SolverConverged_Private(s, it, &reason));
   if (reason > 0)
     Finish_Private(s, reason, "");
+  else if (reason < 0)
+    Finish_Private(s, reason, "forces are too large or too small for their squares to be numbers: take other units");
   else if (it->trouble)
     Finish_Private(s, it->reason, SolverWords_Private(s, it->norm, it->trouble));
   else if (it->number == snes->max_its)

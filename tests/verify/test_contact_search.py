@@ -53,6 +53,14 @@ def test_overlap_deeper_than_a_cell(run, tmp_path, carries, overlap):
     assert abs(result.summary["reaction"]["y0_l"][1] / ((1 / stretch - stretch) / 2) - 1) < 1e-6
 
 
+def test_a_distance_without_bounds(run, tmp_path):
+    """The square of the distance was infinite, and contact was off."""
+    result = run("overlap.yml", *QUIET, "-contact_pair_search", 1e155, text=overlapping(tmp_path, 0.3, "upper"))
+    assert result.returncode == 0, result
+    stretch = 1 - 0.3 / 2
+    assert abs(result.summary["reaction"]["y0_l"][1] / ((1 / stretch - stretch) / 2) - 1) < 1e-6
+
+
 # ---- beyond a plane of symmetry ---------------------------------------------------------------------------------------------------------
 
 @pytest.mark.parametrize("beyond", [0.5, 5])

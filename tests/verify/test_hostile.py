@@ -76,6 +76,19 @@ def test_beyond_numbers(run, tmp_path, E):
     gave_up(run("s.yml", text=block(tmp_path, material={"m": MATERIAL | {"E": E}})))
 
 
+@pytest.mark.parametrize("unit", [1e160, 1e-170])
+def test_forces_whose_squares_are_no_numbers(run, tmp_path, unit):
+    """Zero displacements were taken for the solution: the norm of the residual and what it is judged by were both infinite, or both zero."""
+    loads = {"y0": {"fix": "xy"}, "y1": {"traction": {"y": -0.1 * unit}}}
+    gave_up(run("s.yml", text=block(tmp_path, material={"m": MATERIAL | {"E": unit}}, boundary=loads)), "squares")
+
+
+def test_loads_of_zero(run, tmp_path):
+    """No forces at all are in balance."""
+    result = run("s.yml", text=block(tmp_path, material={"m": MATERIAL | {"E": 1e-170}}, boundary={"y0": {"fix": "xy"}, "y1": {"traction": {"y": 0}}}))
+    assert result.returncode == 0 and result.summary["status"] == "converged", result
+
+
 @pytest.mark.parametrize("turned", [False, True])
 def test_the_same_pair_twice(run, tmp_path, turned):
     sides = ["y0_u", "y1_l"]
