@@ -206,6 +206,7 @@ void OutputUnlock(void);
 /* An input error when the directory has files that a run would replace or remove and none has written, which may be with overwrite, or that may not be
    written. Collective. */
 PetscErrorCode OutputCheckForeign(MPI_Comm, const char *directory, PetscBool overwrite);
+PetscBool      OutputIsOurs(const char *name); /* is it a name in output.directory that a run writes or removes? Not collective. */
 
 /* ---- results put aside (output/earlierpath.c) ----------------------------------------------------------------------------------- */
 

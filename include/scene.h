@@ -99,6 +99,7 @@ PetscErrorCode SceneGetData(Scene, const SceneData **);
 PetscErrorCode SceneUnit(const SceneData *, const char *kind, size_t, char unit[]);
 PetscErrorCode SceneDestroy(Scene *);
 PetscBool      SceneCheckOnly(Scene); /* -check given */
+const char    *SceneMeshFile(Scene);  /* mesh.file, from the working directory; valid until the next call. Not collective. */
 /* The key of this scene, as an option without its dash, that is nearest to a name. Not collective. */
 PetscErrorCode SceneNearestOption(Scene, const char *name, size_t capacity, char nearest[]);
 /* A short readable report of what would be solved on this forest; after SceneSetUp. Collective. */

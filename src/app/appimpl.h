@@ -151,6 +151,8 @@ extern const ExitStatus ExitStatuses[];
 PetscErrorCode AppNew(MPI_Comm, int num_names, char *const names[]);
 /* unknown.c. After all that ask for options of their own: is there one that nobody knows, PETSc included? An input error. Not collective. */
 PetscErrorCode AppCheckOptions(Scene);
+/* viewers.c. An input error where an option has PETSc write a file that cannot be written, is there, or is the run's own. Collective. */
+PetscErrorCode AppCheckViewers(const App *);
 /* Copy the accepted state and all counters; write the copy, if its file is not yet that; remove the file of an earlier run, and what
    it put aside. Collective. */
 PetscErrorCode AppSnapshot(App *);

@@ -133,6 +133,7 @@ static PetscErrorCode Solve_Private(int argc, char **argv, int *status)
   PetscCall(SolverCheckOptions());
   PetscCall(PathOptions(&app.path));
   PetscCall(AppCheckOptions(app.scene));
+  PetscCall(AppCheckViewers(&app));
   PetscCall(StageBegin(STAGE_MESH));
   PetscCall(SceneSetUp(app.scene, &forest));
   PetscCall(StageEnd(STAGE_MESH));
@@ -264,6 +265,7 @@ int main(int argc, char **argv)
     status = Status_Private(ierr);
     if (ErrorIsPlain(ierr)) End_Private(status);
     if (ierr != MORTISE_ERR_INPUT) MPI_Abort(PETSC_COMM_WORLD, status);
+    (void)PetscOptionsClear(NULL); /* -log_view of a run that was refused would still write its file */
     (void)Finalize_Private();
     (void)fflush(NULL);
     _exit(1);

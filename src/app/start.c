@@ -249,6 +249,6 @@ PetscErrorCode AppInitialize(int argc, char **argv)
   TakeRoom_Private();
   TellFiles_Private(argc, argv);
   ierr = Words_Private();
-  if (ierr) (void)PetscFinalize();
+  if (ierr) (void)PetscOptionsClear(NULL), (void)PetscFinalize();
   return ierr;
 }

@@ -66,8 +66,7 @@ static PetscBool IsForeign_Private(const char *path, const char *name, PetscBool
   return (PetscBool)(OutputStateNumber(name) >= 0 && (!S_ISREG(info.st_mode) || (info.st_size && !IsState_Private(path, series))));
 }
 
-/* Is it a name that a run writes or removes? */
-static PetscBool IsOurs_Private(const char *name)
+PetscBool OutputIsOurs(const char *name)
 {
   for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(Kinds); ++i) {
     if (!strcmp(name, Kinds[i].name)) return PETSC_TRUE;
@@ -96,7 +95,7 @@ PetscErrorCode OutputCheckForeign(MPI_Comm comm, const char *directory, PetscBoo
   while (dir && !found[0][0] && (entry = readdir(dir))) {
     (void)snprintf(path, sizeof(path), "%s/%s", directory, entry->d_name);
     if (!overwrite && IsForeign_Private(path, entry->d_name, series)) (void)snprintf(found[0], sizeof(found[0]), "%s", entry->d_name);
-    if (IsOurs_Private(entry->d_name) && access(path, W_OK) && errno == EACCES) (void)snprintf(found[1], sizeof(found[1]), "%s", entry->d_name);
+    if (OutputIsOurs(entry->d_name) && access(path, W_OK) && errno == EACCES) (void)snprintf(found[1], sizeof(found[1]), "%s", entry->d_name);
   }
   if (dir) (void)closedir(dir);
   PetscCallMPI(MPI_Bcast(found, (PetscMPIInt)sizeof(found), MPI_CHAR, 0, comm));

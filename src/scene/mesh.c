@@ -280,6 +280,14 @@ static void Generate_Private(Scene s, const char *geo, MeshResult *r)
                    s->data.mesh.dim == 3 ? "3d" : "two-dimensional", geo, (int)s->data.mesh.dim);
 }
 
+const char *SceneMeshFile(Scene s)
+{
+  static char file[PETSC_MAX_PATH_LEN];
+
+  (void)snprintf(file, sizeof(file), "%s%s", s->mesh_file[0] == '/' ? "" : s->directory, s->mesh_file);
+  return file;
+}
+
 static void Find_Private(Scene s, MeshResult *r)
 {
   const SceneNode *mesh      = NodeFind(s->root, "mesh");
@@ -288,7 +296,7 @@ static void Find_Private(Scene s, MeshResult *r)
   PetscBool        geo       = HasSuffix_Private(s->mesh_file, ".geo");
   struct stat      info;
 
-  (void)snprintf(r->file, sizeof(r->file), "%s%s", s->mesh_file[0] == '/' ? "" : s->directory, s->mesh_file);
+  (void)snprintf(r->file, sizeof(r->file), "%s", SceneMeshFile(s));
   if (!geo && !HasSuffix_Private(s->mesh_file, ".msh"))
     (void)snprintf(r->message, sizeof(r->message), "%s is '%.80s'; its name must end in .geo or .msh, which mortise-import makes of others", where,
                    s->mesh_file);

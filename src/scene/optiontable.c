@@ -204,7 +204,8 @@ const Option Options[] = {
     {"adapt.max_order", KEY_INT, "", "8", "[1,8]", "strategies p and hp: no cell above this order", SCENE(data.adapt.max_order)},
 
     {"output.directory", KEY_TEXT, "", "", "", "relative to the working directory; default: out/<name of the scene>", SCENE(data.output.directory)},
-    {"output.overwrite", KEY_BOOL, "", "false", "", "true: files in it that a run would write, but none has written, are replaced all the same",
+    {"output.overwrite", KEY_BOOL, "", "false", "",
+     "true: files in it that a run would write, but none has written, are replaced all the same, and those that viewers of PETSc name",
      SCENE(data.output.overwrite)},
     {"output.fields", KEY_BOOL, "", "true", "", "write fields.xdmf and its HDF5 files", SCENE(data.output.fields)},
     {"output.divide", KEY_WORD, "", "auto", "auto|1|2|3|4|5|6|7|8", "pieces of a cell in each direction in fields.xdmf; auto: as many as its order",

@@ -127,11 +127,32 @@ def test_types_that_petsc_does_not_know(run, option, words, ranks):
     assert result.returncode == 1 and len(said) == 1 and "an option of PETSc cannot act: " in said[0] and words in said[0] and "PETSC ERROR" not in result.stderr, result
 
 
-def test_a_view_that_cannot_be_written(run, tmp_path):
-    """The run is there all the same."""
-    (tmp_path / "x.vtu").mkdir()
-    result = run("inputs/patch2d.yml", "-solution_view", f"vtk:{tmp_path}/x.vtu")
-    assert result.returncode == 2 and result.stderr == f"mortise: Unable to open file {tmp_path}/x.vtu\n" and result.summary["status"] == "converged", result
+@on_two("option,words", [(("-solution_view", "vtk:HERE/folder.vtu"), "HERE/folder.vtu cannot be written to: Is a directory"),
+                         (("-log_view", ":/nonexist/x"), "/nonexist cannot be written to: No such file"), (("-snes_monitor", "ascii:/nonexist/x"), "/nonexist cannot"),
+                         (("-solution_view", "vtk:x.vtu:append"), "'append' is no format"), (("-ksp_view", "::nonsense"), "'nonsense' is no format"),
+                         (("-log_view", ":HERE/theirs"), "there is a file HERE/theirs"), (("-solution_view", "hdf5:HERE/theirs::append"), "there is a file"),
+                         (("-output_overwrite", "true", "-solution_view", "binary:HERE/patch.yml"), "the run itself reads or writes that file"),
+                         (("-output_overwrite", "true", "-ksp_monitor", "ascii:HERE/patch.geo"), "the run itself")], also=[2])
+def test_views_that_cannot_be_written(run, tmp_path, option, words, ranks):
+    """Told before anything is solved; what is there stays, -log_view's file too, which PETSc would write at its end."""
+    (tmp_path / "folder.vtu").mkdir()
+    (tmp_path / "theirs").write_text("keep")
+    for end in ("yml", "geo"):
+        (tmp_path / f"patch.{end}").write_text((ROOT / f"inputs/patch2d.{end}").read_text().replace("patch2d.geo", "patch.geo"))
+    before = {path: path.read_bytes() for path in tmp_path.iterdir() if path.is_file()}
+    result = run(tmp_path / "patch.yml", *(word.replace("HERE", str(tmp_path)) for word in option), ranks=ranks)
+    refused_run(result, words.replace("HERE", str(tmp_path)))
+    assert before == {path: path.read_bytes() for path in tmp_path.iterdir() if path.is_file()}
+
+
+def test_views_in_the_directory_of_the_run(run, tmp_path):
+    """It is there when they are written; with output.overwrite files are replaced."""
+    for _ in range(2):
+        result = run("inputs/patch2d.yml", "-output_directory", tmp_path / "o", "-output_overwrite", "true", "-log_view", f":{tmp_path}/o/log", "-solution_view", f"vtk:{tmp_path}/o/u.vtu")
+        assert result.returncode == 0 and result.stderr == "" and (tmp_path / "o/log").stat().st_size > 1000 and (tmp_path / "o/u.vtu").stat().st_size > 0, result
+    checkpoint = (tmp_path / "o/checkpoint.h5").read_bytes()
+    result = run("inputs/patch2d.yml", "-output_directory", tmp_path / "o", "-output_overwrite", "true", "-solution_view", f"hdf5:{tmp_path}/o/checkpoint.h5")
+    assert result.returncode == 1 and "the run itself reads or writes" in result.stderr and checkpoint == (tmp_path / "o/checkpoint.h5").read_bytes(), result
 
 
 @pytest.mark.parametrize("ranks", [1, 2])

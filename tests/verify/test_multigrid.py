@@ -42,7 +42,7 @@ def test_boomeramg(run, hypre, order, processes):
     (("-solve_linear", "direct", "-saddle_ksp_max_it", 5), "-saddle_ksp_max_it cannot act with -solve_linear direct; take iterative or auto"),
     (("-solve_multigrid", "gamg", "-multigrid_pc_type", "lu"), "-solve_multigrid and -multigrid_pc_type exclude each other; give one of them"),
     (("-solution_view", "vtk:u.txt"), "-solution_view is 'vtk:u.txt'; a file of vtk ends in .vtu"),
-    (("-solution_view", "vtk:/nowhere/u.vtu"), "-solution_view is 'vtk:/nowhere/u.vtu': /nowhere/ cannot be written to: No such file or directory"),
+    (("-solution_view", "vtk:/nowhere/u.vtu"), "-solution_view is 'vtk:/nowhere/u.vtu': /nowhere cannot be written to: No such file or directory"),
     (("-solution_view", "draw"), "-solution_view is 'draw'; allowed: vtk:FILE.vtu|hdf5:FILE|binary:FILE"),
 ])
 def test_refused(run, options, words):
