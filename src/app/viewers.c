@@ -8,6 +8,8 @@
 
 /* Types of viewers whose value is type:file:format:mode; the first one is the type of a value without. */
 static const char *const Types[] = {"", "ascii", "binary", "hdf5", "vtk", "exodusii", "matlab", "cgns", "pyvista"};
+/* Those without files, and options whose value is nothing but a viewer. */
+static const char *const Others[] = {"draw", "socket", "saws", "glvis"}, *const Views[] = {"log_view", "snes_view", "ksp_view"};
 enum { FILE_FINE, FILE_NO_ROOM, FILE_OF_RUN, FILE_THERE };
 
 static PetscBool IsSame_Private(const char *path, const struct stat *file)
@@ -22,7 +24,7 @@ static PetscBool IsOfRun_Private(const App *app, const char *file, const char *d
 {
   const char *const read[] = {app->data->file, SceneMeshFile(app->scene), app->restart};
   const char *const slash = strrchr(file, '/'), *const output = app->data->output.directory;
-  struct stat       info;
+  struct stat info;
 
   for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(read) && !stat(file, &info); ++i)
     if (IsSame_Private(read[i], &info)) return PETSC_TRUE;
@@ -65,18 +67,27 @@ static PetscErrorCode CheckFile_Private(const App *app, const char *name, const 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static PetscBool IsIn_Private(const char *word, size_t num, const char *const list[])
+{
+  for (size_t i = 0; i < num; ++i)
+    if (!strcmp(word, list[i])) return PETSC_TRUE;
+  return PETSC_FALSE;
+}
+#define IsIn(word, list) IsIn_Private(word, PETSC_STATIC_ARRAY_LENGTH(list), list)
+
 /* One option of PETSc; values of other kinds pass. */
 static PetscErrorCode Check_Private(const App *app, const char *name, const char *text)
 {
   char      copy[PETSC_MAX_PATH_LEN], *word[4] = {copy, copy, copy, copy}; /* type, file, format, mode */
-  PetscBool viewer = PETSC_FALSE, known = PETSC_TRUE;
+  PetscBool known = PETSC_TRUE;
   PetscEnum number;
 
   PetscFunctionBegin;
   PetscCall(PetscStrncpy(copy, text, sizeof(copy)));
   for (int k = 1; k < 4 && (word[k] = strchr(word[k - 1], ':')); ++k) *word[k]++ = 0;
-  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(Types); ++i) viewer = (PetscBool)(viewer || !strcmp(word[0], Types[i]));
-  if (!viewer || !word[1] || !strcmp(name, "info")) PetscFunctionReturn(PETSC_SUCCESS); /* -info FILE:CLASSES is open by now */
+  const PetscBool file = IsIn(word[0], Types);
+  PetscCheckInput(file || IsIn(word[0], Others) || !IsIn(name, Views), "an option of PETSc cannot act: -%s: there is no viewer %s", name, text);
+  if (!file || !word[1] || !strcmp(name, "info")) PetscFunctionReturn(PETSC_SUCCESS); /* -info FILE:CLASSES is open by now */
   if (word[2] && word[2][0]) PetscCall(PetscEnumFind(PetscViewerFormats, word[2], &number, &known));
   PetscCheckInput(known, "-%s is '%s': '%s' is no format of PETSc's viewers, whose files are TYPE:FILE:FORMAT:MODE", name, text, word[2]);
   if (word[1][0]) PetscCall(CheckFile_Private(app, name, text, word[1]));

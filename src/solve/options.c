@@ -155,6 +155,7 @@ PetscErrorCode SolverCheckOptions(void)
 
   PetscFunctionBegin;
   PetscCall(SolverOptions_Private(&nobody));
+  PetscCall(SolverCheckTypes_Private()); /* first: of options that nobody has asked for */
   PetscCall(MultigridCheck_Private(nobody.multigrid, nobody.linear));
   PetscCall(PetscOptionsLeftGet(NULL, &num, &names, &values)); /* those of the table are asked for by now */
   for (PetscInt i = num - 1; i >= 0; --i) {

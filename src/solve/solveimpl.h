@@ -83,6 +83,8 @@ struct _p_Solver {
 
 /* options.c: what the command line says of the solver, the rest stays as it is. */
 PetscErrorCode SolverOptions_Private(Solver);
+/* types.c: an input error for types and numbers among PETSc's options that no solver could be set up with. Collective. */
+PetscErrorCode SolverCheckTypes_Private(void);
 /* newton.c: the SNES type. */
 PetscErrorCode SNESCreate_ContactNewton(SNES);
 /* Norm and active set of an iterate whose residual is there. Collective. */

@@ -120,11 +120,19 @@ def test_option_files_that_name_themselves(run, tmp_path, files, ranks):
 
 @on_two("option,words", [(("-ksp_type", "nonsense"), "KSP type nonsense"), (("-pc_type", "nonsense"), "PC type nonsense"),
                                           (("-pc_factor_mat_solver_type", "nonsense"), "solver type nonsense"), (("-snes_view", "a.b.c"), "viewer a.b.c"),
-                                          (("-log_view", "a\033b"), "viewer a?b"), (("-mat_mumps_icntl_14", "many"), "many"), (("-options_view", "a.b"), "a.b")], also=[2])
+                                          (("-log_view", "a\033b"), "viewer a?b"), (("-mat_mumps_icntl_14", "many"), "many"), (("-again_ksp_type", "nonsense"), "KSP type nonsense"),
+                                          (("-multigrid_pc_type", "nonsense"), "PC type nonsense"), (("-mat_mumps_cntl_1", "many"), "many")], also=[2])
 def test_types_that_petsc_does_not_know(run, option, words, ranks):
+    """Told before what an earlier run has left is touched."""
     result = run("inputs/patch2d.yml", *option, ranks=ranks)
+    assert not result.directory.exists()
     said = [line for line in result.stderr.splitlines() if line.startswith("mortise: ")]
     assert result.returncode == 1 and len(said) == 1 and "an option of PETSc cannot act: " in said[0] and words in said[0] and "PETSC ERROR" not in result.stderr, result
+
+
+def test_what_petsc_tells_at_its_end(run):
+    result = run("inputs/patch2d.yml", "-options_view", "a.b")
+    assert result.returncode == 1 and result.stderr == "mortise: an option of PETSc cannot act: Unknown logical value: a.b\n", result
 
 
 @on_two("option,words", [(("-solution_view", "vtk:HERE/folder.vtu"), "HERE/folder.vtu cannot be written to: Is a directory"),
