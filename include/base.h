@@ -87,15 +87,20 @@ PetscErrorCode           StageAdd(Stage, PetscReal seconds); /* time of an earli
 
 /* ---- requests to stop (base/stop.c) ------------------------------------------------------------------------------ */
 
-/* First of all in a program: signals that are ignored now, as under nohup, stay so. */
+/* First of all in a program: signals that are ignored now, as under nohup, stay so, and requests to stop wait until StopWatch, or StopRelease where nothing
+   watches. */
 void StopBegin(void);
+void StopRelease(void);
 /* From now on SIGTERM, SIGUSR1, SIGUSR2, SIGINT, SIGQUIT, SIGHUP, SIGXCPU, SIGPIPE and (seconds > 0) this much wall time are requests to stop; a second one of
    the first five does what it always did. */
 PetscErrorCode StopWatch(PetscReal seconds);
 /* Is there such a request on any rank of comm? It stays. Never without StopWatch. Collective. */
 PetscErrorCode StopAsked(MPI_Comm comm, PetscBool *stop);
-const char    *StopReason(void); /* name of the signal, or -max_seconds; "": nobody asked */
-const char    *StopWish(void);   /* the same, of a request to this rank that the others need not know of yet. Not collective. */
+/* The run ends before there is anything to go on from; its error is told like wrong input, its exit status is 3. Of all ranks, not collective. */
+void        StopEarly(void);
+PetscBool   StopWasEarly(void);
+const char *StopReason(void); /* name of the signal, or -max_seconds; "": nobody asked */
+const char *StopWish(void);   /* the same, of a request to this rank that the others need not know of yet. Not collective. */
 
 /* ---- checksums (base/hash.c) --------------------------------------------------------------------------------------- */
 

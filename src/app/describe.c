@@ -7,7 +7,8 @@ const ExitStatus ExitStatuses[] = {
     {0, "converged to the end"},
     {1, "bad input, nothing was solved: one sentence says which key, which value, what is allowed"},
     {2, "the solver gave up: status failed; or inaccurate, where all load steps were solved, but adapt.tolerance was not reached in all of them"},
-    {3, "stopped, by SIGTERM, SIGINT, SIGHUP, SIGQUIT, SIGUSR1, SIGUSR2, SIGXCPU, SIGPIPE or -max_seconds, with a checkpoint for -restart"},
+    {3, "stopped, by SIGTERM, SIGINT, SIGHUP, SIGQUIT, SIGUSR1, SIGUSR2, SIGXCPU, SIGPIPE or -max_seconds, with a checkpoint for -restart; before there is a "
+        "mesh, with nothing"},
     {0, NULL},
 };
 

@@ -120,6 +120,7 @@ static PetscErrorCode Solve_Private(int argc, char **argv, int *status)
 
   PetscFunctionBegin;
   PetscCall(PetscTime(&app.start));
+  PetscCall(StopWatch(0));
   PetscCheckInput(argc > 1, "no scene was named; say mortise SCENE.yml, or mortise -help");
   PetscCall(CheckArguments_Private(app.comm, argc, argv));
   PetscCall(SceneCreate(app.comm, argc, argv, &app.scene));
@@ -159,6 +160,11 @@ static PetscBool Asked_Private(int argc, char **argv, const char *option)
   return PETSC_FALSE;
 }
 
+static PetscBool AsksHelp_Private(int argc, char **argv)
+{
+  return (PetscBool)(Asked_Private(argc, argv, "-help") || Asked_Private(argc, argv, "--help") || Asked_Private(argc, argv, "-h"));
+}
+
 /* Options with a first word of PETSc's that nothing asked for are most likely mistyped: say so. PetscFinalize asks for two more. */
 static PetscErrorCode UnusedOptions_Private(void)
 {
@@ -194,20 +200,30 @@ static PetscErrorCode Help_Private(void)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* What is told, or made, without a scene. */
+static PetscErrorCode Tell_Private(int argc, char **argv)
+{
+  PetscFunctionBegin;
+  StopRelease();
+  if (!strcmp(argv[1], "new"))
+    PetscCall(AppNew(PETSC_COMM_WORLD, argc - 2, argv + 2));
+  else if (argc == 3 && !strcmp(argv[1], "-help") && !strcmp(argv[2], "json"))
+    PetscCall(AppDescribe(PETSC_COMM_WORLD));
+  else if (Asked_Private(argc, argv, "--version") && !AsksHelp_Private(argc, argv))
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "mortise %s\n", MORTISE_VERSION));
+  else if (!AsksHelp_Private(argc, argv))
+    PetscCall(ScenePrintList(PETSC_COMM_WORLD));
+  else
+    PetscCall(Help_Private());
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode Main_Private(int argc, char **argv, int *status)
 {
   PetscFunctionBegin;
   PetscCall(StageRegister());
-  if (argc > 1 && !strcmp(argv[1], "new"))
-    PetscCall(AppNew(PETSC_COMM_WORLD, argc - 2, argv + 2));
-  else if (argc == 3 && !strcmp(argv[1], "-help") && !strcmp(argv[2], "json"))
-    PetscCall(AppDescribe(PETSC_COMM_WORLD));
-  else if (Asked_Private(argc, argv, "-help") || Asked_Private(argc, argv, "--help") || Asked_Private(argc, argv, "-h"))
-    PetscCall(Help_Private());
-  else if (Asked_Private(argc, argv, "--version"))
-    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "mortise %s\n", MORTISE_VERSION));
-  else if (Asked_Private(argc, argv, "-list"))
-    PetscCall(ScenePrintList(PETSC_COMM_WORLD));
+  if ((argc > 1 && !strcmp(argv[1], "new")) || AsksHelp_Private(argc, argv) || Asked_Private(argc, argv, "--version") || Asked_Private(argc, argv, "-list"))
+    PetscCall(Tell_Private(argc, argv));
   else {
     PetscCall(Solve_Private(argc, argv, status));
     PetscCall(UnusedOptions_Private());
@@ -268,7 +284,7 @@ int main(int argc, char **argv)
     (void)PetscOptionsClear(NULL); /* -log_view of a run that was refused would still write its file */
     (void)Finalize_Private();
     (void)fflush(NULL);
-    _exit(1);
+    _exit(StopWasEarly() ? 3 : 1);
   }
   CheckScreen_Private(&status);
   (void)fflush(NULL); /* now: mpiexec ends the other processes as soon as it sees one that has ended with a status */

@@ -10,6 +10,7 @@ static PetscBool             stop_watched;
 static PetscLogDouble        stop_start;
 static PetscReal             stop_seconds; /* 0: no limit */
 static int                   stop_decided; /* by all ranks: signal or TIME_UP */
+static PetscBool             stop_early;   /* before there was a mesh */
 
 static const struct {
   int         number;
@@ -32,33 +33,49 @@ static void Note_Private(int number)
   stop_signal = number;
 }
 
+static sigset_t Ours_Private(void)
+{
+  sigset_t ours;
+
+  sigemptyset(&ours);
+  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(Signals); ++i) sigaddset(&ours, Signals[i].number);
+  return ours;
+}
+
 void StopBegin(void)
 {
+  sigset_t         ours = Ours_Private();
   struct sigaction action;
 
   (void)signal(SIGCHLD, SIG_DFL); /* ignored, it would take from us how gmsh has ended */
   for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(Signals); ++i)
     stop_ignored[i] = (PetscBool)(!sigaction(Signals[i].number, NULL, &action) && action.sa_handler == SIG_IGN);
+  sigdelset(&ours, SIGPIPE);                 /* of -help cut short by `head` */
+  (void)sigprocmask(SIG_BLOCK, &ours, NULL); /* MPI and PETSc have handlers of their own while they start */
+}
+
+void StopRelease(void)
+{
+  const sigset_t ours = Ours_Private();
+
+  (void)sigprocmask(SIG_UNBLOCK, &ours, NULL); /* a starter that holds them back for itself does not mean us, either */
 }
 
 PetscErrorCode StopWatch(PetscReal seconds)
 {
   struct sigaction action = {.sa_handler = Note_Private};
-  sigset_t         ours;
 
   PetscFunctionBegin;
   PetscCall(PetscTime(&stop_start));
   stop_seconds = seconds;
   stop_watched = PETSC_TRUE;
   sigemptyset(&action.sa_mask);
-  sigemptyset(&ours);
   for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(Signals); ++i) {
     action.sa_handler = stop_ignored[i] ? SIG_IGN : Note_Private;
     action.sa_flags   = SA_RESTART | Signals[i].flags;
     PetscCheck(!sigaction(Signals[i].number, &action, NULL), PETSC_COMM_SELF, PETSC_ERR_SYS, "sigaction failed for %s", Signals[i].name);
-    sigaddset(&ours, Signals[i].number);
   }
-  (void)sigprocmask(SIG_UNBLOCK, &ours, NULL); /* a starter that holds them back for itself does not mean us */
+  StopRelease();
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -91,6 +108,16 @@ static const char *Name_Private(int wish)
     if (wish == Signals[i].number) return Signals[i].name;
   }
   return wish == TIME_UP ? "-max_seconds" : "";
+}
+
+void StopEarly(void)
+{
+  stop_early = PETSC_TRUE;
+}
+
+PetscBool StopWasEarly(void)
+{
+  return stop_early;
 }
 
 const char *StopReason(void)

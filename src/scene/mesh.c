@@ -23,6 +23,7 @@ typedef struct {
   char message[PETSC_MAX_PATH_LEN + MESSAGE_LENGTH];
   char file[PETSC_MAX_PATH_LEN], temporary[PETSC_MAX_PATH_LEN];
   int  subdivided; /* hexahedra are made out of tetrahedra */
+  int  stopped;    /* the run was asked to stop: that is the message */
 } MeshResult;
 
 static PetscBool HasSuffix_Private(const char *file, const char *suffix)
@@ -232,7 +233,7 @@ static void Gmsh_Private(Scene s, const char *geo, PetscBool subdivide, MeshResu
   else if (error)
     (void)snprintf(r->message, sizeof(r->message), "mesh.file %s: gmsh could not be started: %s", geo, strerror(error));
   else if (stopped || (WIFSIGNALED(status) && StopWish()[0])) /* the terminal's SIGINT goes to both */
-    (void)snprintf(r->message, sizeof(r->message), "mesh.file %s: gmsh had not come to an end when the run was asked to stop (%s)", geo, StopWish());
+    r->stopped = snprintf(r->message, sizeof(r->message), "mesh.file %s: gmsh had not come to an end when the run was asked to stop (%s)", geo, StopWish()) > 0;
   else if (WIFSIGNALED(status) && Says_Private(log, "bad_alloc"))
     (void)snprintf(
         r->message, sizeof(r->message),
@@ -336,6 +337,7 @@ PetscErrorCode SceneMakeMesh(Scene s)
   PetscCall(PetscStrncpy(s->data.mesh.file, r.file, sizeof(s->data.mesh.file)));
   if (r.temporary[0]) PetscCall(PetscStrncpy(s->data.mesh.told, s->mesh_file, sizeof(s->data.mesh.told)));
   s->subdivided = (PetscBool)r.subdivided;
+  if (r.stopped) StopEarly();
   PetscCheckInput(!r.message[0], "%s", r.message);
   if (order && HasSuffix_Private(s->mesh_file, ".msh"))
     PetscCall(

@@ -32,8 +32,8 @@ static PetscErrorCode CheckType_Private(const char *name, const char *value)
 /* Packages that factorise: one that can do so with a matrix over these processes, or over one where a prefix says that the matrix is another. */
 static PetscErrorCode CheckPackage_Private(const char *name, const char *package)
 {
-  static const char *const ours = "pc_factor_mat_solver_type";
-  const char *const        type[]  = {MATMPIAIJ, MATSEQAIJ};
+  static const char *const ours   = "pc_factor_mat_solver_type";
+  const char *const        type[] = {MATMPIAIJ, MATSEQAIJ};
   PetscMPIInt              size;
   PetscBool                found = PETSC_FALSE;
 

@@ -271,7 +271,8 @@ def children(name):
 
 @pytest.mark.parametrize("number,ranks", [(signal.SIGTERM, 1), (signal.SIGTERM, 2), (signal.SIGKILL, 1)])
 def test_stopped_while_gmsh_meshes(tmp_path, number, ranks):
-    """No gmsh is left, and, but where nothing can be done any more, no directory."""
+    """The end is that of other runs that are stopped, which batch scripts begin again; no gmsh is left, and, but where nothing can be done any more, no
+    directory."""
     (tmp_path / "endless.geo").write_text("For i In {1:2000000000}\nx = i;\nEndFor\n")
     (tmp_path / "tmp").mkdir()
     text = block(tmp_path, mesh={"file": "endless.geo"})
@@ -287,6 +288,25 @@ def test_stopped_while_gmsh_meshes(tmp_path, number, ranks):
     assert becomes(lambda: not meshing())  # a busy machine takes its time to end a process
     if number == signal.SIGTERM:
         assert not list((tmp_path / "tmp").glob("mortise-*"))
+    if number == signal.SIGTERM and ranks == 1:  # mpiexec has a status of its own
+        assert process.returncode == 3 and not (tmp_path / "out").exists(), process.communicate()
+
+
+@pytest.mark.parametrize("wait", [0, 0.02, 0.05])
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP])
+def test_stopped_while_it_starts(tmp_path, number, wait):
+    """No handler of MPI or PETSc answers; one that comes before main is the system's."""
+    process = start(tmp_path, text=block(tmp_path, **ENDLESS))
+
+    def began():
+        masks = dict(line.split(":\t") for line in pathlib.Path(f"/proc/{process.pid}/status").read_text().splitlines() if line.startswith("Sig"))
+        return os.path.samefile(f"/proc/{process.pid}/exe", PROGRAM) and (int(masks["SigBlk"], 16) | int(masks["SigCgt"], 16)) >> (number - 1) & 1
+
+    wait_for(began, process)
+    time.sleep(wait)
+    process.send_signal(number)
+    output, errors = process.communicate(timeout=PATIENCE)
+    assert process.returncode == 3 and errors == "", (process.returncode, output, errors)
 
 
 # ---- two checkpoints ----------------------------------------------------------------------------------------------------------------------
