@@ -113,6 +113,7 @@ static int First_Private(PetscBool overwrite, Holder *other, int *number)
     held = Open_Private(overwrite);
     if (held < 0) return *number = errno, errno == ELOOP ? LOCK_FOREIGN : LOCK_FAILED;
     failed = Flock_Private(held, LOCK_EX);
+    if (failed) (void)flock(held, LOCK_SH); /* who has it for itself is writing its name: a moment */
     *other = Read_Private(held);
     if (failed) return LOCK_OTHERS;
     if (Stands_Private(held)) break;
@@ -156,6 +157,8 @@ PetscErrorCode OutputLock(MPI_Comm comm, const char *directory, PetscBool overwr
                   "output.directory %s: not all processes see it; it has to be on a file system that they share, under the same name", directory);
   PetscCheckInput(verdict != LOCK_FAILED, "output.directory: %s cannot be made: %s", path, strerror(found.number));
   if (verdict == LOCK_FOREIGN) PetscCall(OutputTellForeign(directory, LOCK_FILE));
+  PetscCheckInput(verdict != LOCK_OTHERS || found.other.pid,
+                  "output.directory %s: another run is about to write there; give another directory, or wait for its end", directory);
   PetscCheckInput(verdict != LOCK_OTHERS, "output.directory %s: %s process %d on %s, writes there; give another directory, or wait for its end", directory,
                   Lives_Private(&found.other) ? "another run," : "what is left of a run,", found.other.pid, found.other.host);
   if (found.other.pid)

@@ -1,5 +1,6 @@
 """A job that can be left alone: one run a directory, stops in order, nothing of others lost, no program run for a scene of somebody else's."""
 import ctypes
+import fcntl
 import json
 import os
 import pathlib
@@ -94,6 +95,22 @@ def test_what_a_killed_run_leaves(tmp_path):
     second = resumed(tmp_path, "-max_seconds", 0.2)
     assert second.returncode == 3 and f"process {first.pid} on {socket.gethostname()}, did not come to its end" in second.stdout, second
     assert second.summary["status"] == "stopped" and not (tmp_path / "out" / "lock").exists()
+
+
+def test_who_has_it_writes_its_name(tmp_path):
+    """A run that takes over what a killed one has left has the lock before its name stands there (its name was nobody's, process 0)."""
+    text = block(tmp_path)
+    (tmp_path / "out").mkdir()
+    with open(tmp_path / "out" / "lock", "w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        process = start(tmp_path, text=text)
+        waiting = f"FLOCK  ADVISORY  READ {process.pid} "
+        wait_for(lambda: any("->" in line and waiting in line for line in open("/proc/locks")), process)
+        lock.write(f"process {os.getpid()} on {socket.gethostname()}\n")
+        lock.flush()
+        fcntl.flock(lock, fcntl.LOCK_SH)
+        output, errors = process.communicate(timeout=PATIENCE)
+    assert process.returncode == 1 and f"another run, process {os.getpid()} on {socket.gethostname()}, writes there" in errors, (output, errors)
 
 
 def ranks_of(process):
