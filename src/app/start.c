@@ -218,6 +218,18 @@ static PetscErrorCode Words_Private(void)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* PETSc's trap of floating-point exceptions would end every run at the first NaN that says "not there". */
+static PetscErrorCode Trap_Private(void)
+{
+  PetscBool trap = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  PetscCall(PetscOptionsGetBool(NULL, NULL, "-fp_trap", &trap, NULL));
+  if (trap) PetscCall(PetscSetFPTrap(PETSC_FP_TRAP_OFF));
+  PetscCheckInput(!trap, "-fp_trap cannot act here: numbers that are none stand for what is not known, and libraries compute with infinities");
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* PetscInitialize with those settings when no launcher started this process; what the user has set wins. */
 PetscErrorCode AppInitialize(int argc, char **argv)
 {
@@ -249,6 +261,7 @@ PetscErrorCode AppInitialize(int argc, char **argv)
   TakeRoom_Private();
   TellFiles_Private(argc, argv);
   ierr = Words_Private();
+  if (!ierr) ierr = Trap_Private();
   if (ierr) (void)PetscOptionsClear(NULL), (void)PetscFinalize();
   return ierr;
 }

@@ -99,7 +99,7 @@ def test_bytes(check, run, tmp_path, encode, good):
     (["-order=2"], ["-order=2 is no key of a scene", "nearest one is -order"]), (["-load.end", "2"], ["-load.end is no key of a scene", "-load_end"]),
     (["-load_end", "-2"], ["command line: load.end is -2"]), (["-max_seconds", "5m"], ["-max_seconds is '5m'"]), (["-restart", "none.h5"], ["-restart none.h5: the file cannot be read"]),
     (["-restart", "."], ["-restart .: .*directory"]), (["-restart", "/dev/zero"], ["this is no checkpoint of mortise"]),
-    (["-info", "/nowhere/x"], ["an option of PETSc cannot act: Unable to open file /nowhere/x"]), (["-fp_trap", "maybe"], ["an option of PETSc cannot act: Unknown logical value"]), (["-restart", str(ROOT / "README.md")], ["this is no checkpoint of mortise"]),
+    (["-info", "/nowhere/x"], ["an option of PETSc cannot act: Unable to open file /nowhere/x"]), (["-fp_trap"], ["-fp_trap cannot act here"]), (["-fp_trap", "maybe"], ["an option of PETSc cannot act: Unknown logical value"]), (["-restart", str(ROOT / "README.md")], ["this is no checkpoint of mortise"]),
     (["-options_file", "."], ["-options_file: .* is a directory"]), (["-output_directory", "a" * 300], ["output.directory .*File name too long"]),
     (["-output_directory", "a/" * 2040], ["output.directory is longer than 4063"]), (["-output_directory", "a\nb"], ["output.directory is 'a.b', with a control character or the end of a line"]),
 ])
