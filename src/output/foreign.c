@@ -82,8 +82,9 @@ PetscErrorCode OutputTellForeign(const char *directory, const char *name)
 
 PetscErrorCode OutputCheckForeign(MPI_Comm comm, const char *directory, PetscBool overwrite)
 {
-  char           path[2 * PETSC_MAX_PATH_LEN], found[2][256] = {"", ""}; /* no file of ours, one that may not be written */
+  char           path[2 * PETSC_MAX_PATH_LEN], found[3][256] = {"", "", ""}; /* no file of ours, one that may not be written, a directory */
   struct dirent *entry;
+  struct stat    info;
   PetscMPIInt    rank;
   DIR           *dir = NULL;
 
@@ -96,10 +97,12 @@ PetscErrorCode OutputCheckForeign(MPI_Comm comm, const char *directory, PetscBoo
     (void)snprintf(path, sizeof(path), "%s/%s", directory, entry->d_name);
     if (!overwrite && IsForeign_Private(path, entry->d_name, series)) (void)snprintf(found[0], sizeof(found[0]), "%s", entry->d_name);
     if (OutputIsOurs(entry->d_name) && access(path, W_OK) && errno == EACCES) (void)snprintf(found[1], sizeof(found[1]), "%s", entry->d_name);
+    if (OutputIsOurs(entry->d_name) && !lstat(path, &info) && S_ISDIR(info.st_mode)) (void)snprintf(found[2], sizeof(found[2]), "%s", entry->d_name);
   }
   if (dir) (void)closedir(dir);
   PetscCallMPI(MPI_Bcast(found, (PetscMPIInt)sizeof(found), MPI_CHAR, 0, comm));
   if (found[0][0]) PetscCall(OutputTellForeign(directory, found[0]));
   PetscCheckInput(!found[1][0], "output.directory %s: %s in it may not be written; give another directory", directory, found[1]);
+  PetscCheckInput(!found[2][0], "output.directory %s: %s in it is a directory, where a run writes a file; give another one, or remove it", directory, found[2]);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

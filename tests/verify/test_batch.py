@@ -97,6 +97,15 @@ def test_what_a_killed_run_leaves(tmp_path):
     assert second.summary["status"] == "stopped" and not (tmp_path / "out" / "lock").exists()
 
 
+@pytest.mark.parametrize("name", ["fields_0000.h5", "summary.json", "history.csv", "checkpoint.h5"])
+def test_directories_with_names_of_results(run, tmp_path, name):
+    """They are not replaced, and told of before the run."""
+    (tmp_path / "out1" / name).mkdir(parents=True)
+    result = run("s.yml", "-output_overwrite", "true", text=block(tmp_path))
+    assert result.returncode == 1 and f"{name} in it is a directory" in result.stderr and "accepted" not in result.stdout, result
+    assert os.listdir(tmp_path / "out1") == [name]
+
+
 def test_who_has_it_writes_its_name(tmp_path):
     """A run that takes over what a killed one has left has the lock before its name stands there (its name was nobody's, process 0)."""
     text = block(tmp_path)
@@ -467,8 +476,8 @@ def test_equilibrium_deserves_its_name(run, tmp_path):
     assert run("s.yml", "-solve_rtol", 1e-3, text=block(tmp_path)).returncode == 0
 
 
-@pytest.mark.parametrize("name", ["fields_0000.h5", "checkpoint.h5.tmp"])
-def test_fields_name_their_file(run, tmp_path, name):
+def test_checkpoints_name_their_file(run, tmp_path):
+    name = "checkpoint.h5.tmp"
     (tmp_path / "out1" / name).mkdir(parents=True)
     result = run("s.yml", "-output_overwrite", "true", text=block(tmp_path))
     assert result.returncode == 2 and f"{tmp_path}/out1/{name}: " in result.stderr and len(result.stderr.splitlines()) == 1, result

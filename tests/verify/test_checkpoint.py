@@ -521,6 +521,20 @@ def test_forged_contents_are_refused(run, broken_off, tmp_path, name, at, value,
     assert result.returncode == 1 and len([line for line in result.stderr.splitlines() if line.startswith("mortise: -restart")]) == 1, result
 
 
+@pytest.mark.parametrize("lose,words", [(("fields_0001.h5",), "fields_0001.h5 of the steps"), (("fields_0000.h5", "fields_0001.h5", "history.csv"), "fields_0000.h5 and others"),
+                                        (("history.csv",), "history.csv of the steps"), ((), None)])
+def test_results_that_are_gone_are_told(run, tmp_path, lose, words):
+    text, out = block(tmp_path), ("-output_directory", tmp_path / "out", "-load_step", 0.25)
+    assert run("s.yml", *out, "-load_end", 0.5, text=text).returncode == 0
+    for name in lose:
+        path = tmp_path / "out" / name
+        data = path.read_bytes()
+        path.write_bytes(data[:1000]) if name.endswith("1.h5") else path.unlink()
+    result = run("s.yml", *out, "-restart", "auto", text=text)
+    warned = [line for line in result.stdout.splitlines() if line.startswith("warning: -restart")]
+    assert result.returncode == 0 and (len(warned) == 1 and words in warned[0] if words else not warned), result
+
+
 def test_flow_error_where_nothing_was_left_to_do(run):
     """It is relative to the energy of the accepted state, which a run that goes on from the end has not computed."""
     result = run("tests/gauntlet/forge.yml", "-output_fields", "false")
