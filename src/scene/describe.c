@@ -13,6 +13,7 @@ static void DescribeKey_Private(cJSON *keys, const Option *row)
   cJSON_AddBoolToObject(key, "required", !row->fallback);
   cJSON_AddStringToObject(key, "default", row->fallback ? row->fallback : "");
   cJSON_AddStringToObject(key, "range", row->range);
+  if (row->type == KEY_TEXT) cJSON_AddNumberToObject(key, "longest", (double)row->size - 1);
   cJSON_AddStringToObject(key, "help", row->help);
   cJSON_AddItemToArray(keys, key);
 }

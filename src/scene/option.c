@@ -126,9 +126,10 @@ static PetscErrorCode CheckNode_Private(const SceneNode *root, const SceneNode *
     if (row && !(prefix && child->kind == NODE_MAP)) { /* body.<name>.order is a number or a map of directions */
       NodeKind kind = row->type == KEY_AMPLITUDE || (row->type == KEY_GROUPS && child->kind == NODE_LIST) ? NODE_LIST : NODE_SCALAR;
       PetscCheckInput(child->kind == kind && !NodeIsEmpty(child), "%s must be %s, it is %s", NodeWhere(child), Wanted_Private(row->type), Shape_Private(child));
+      PetscCheckInput(kind == NODE_LIST || child->text[0], "%s is ''; it must be %s", NodeWhere(child), Wanted_Private(row->type));
       if (row->type == KEY_GROUPS && kind == NODE_LIST) PetscCall(CheckNames_Private(child));
     } else {
-      PetscCheckInput(child->kind == NODE_MAP || NodeIsEmpty(child), "%s must be a map of keys {key: value, ...}, it is %s", NodeWhere(child),
+      PetscCheckInput(child->kind == NODE_MAP || NodeIsNull(child), "%s must be a map of keys {key: value, ...}, it is %s", NodeWhere(child),
                       Shape_Private(child));
       PetscCall(CheckNode_Private(root, child, num + 1, keys));
     }
@@ -218,6 +219,7 @@ static PetscErrorCode Integer_Private(const Option *row, const char *where, cons
   PetscFunctionBegin;
   errno = 0;
   v     = strtol(text, &end, 10);
+  if (end != text && *end == '.') end += 1 + strspn(end + 1, "0"); /* a number without a fraction is one, as in JSON */
   PetscCheckInput(end != text && !*end && !isspace((unsigned char)text[0]), "%s is '%s'; it must be an integer in %s", where, text, row->range);
   PetscCheckInput(!errno && InRange_Private(row->range, (PetscReal)v), "%s is %s; allowed: an integer in %s", where, text, row->range);
   *value = (PetscInt)v;

@@ -194,7 +194,7 @@ static PetscErrorCode Set_Private(SceneNode *root, const Match *m, const char *v
     NodeKind   kind  = i + 1 < m->num ? NODE_MAP : last;
     SceneNode *child = NodeFind(at, m->keys[i]);
     if (!child) PetscCall(NodeCreate(at, m->keys[i], kind, root->origin, 0, &child));
-    PetscCheckInput(kind != NODE_MAP || child->kind == NODE_MAP || NodeIsEmpty(child), "%s: a key below %s, which is %s; give it as a map {key: value}",
+    PetscCheckInput(kind != NODE_MAP || child->kind == NODE_MAP || NodeIsNull(child), "%s: a key below %s, which is %s; give it as a map {key: value}",
                     NodeOptions(line), NodeWhere(child), child->kind == NODE_LIST ? "a list" : child->text);
     if (kind == NODE_MAP) child->kind = NODE_MAP; /* an empty section becomes a map */
     at = child;

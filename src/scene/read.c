@@ -110,7 +110,6 @@ static PetscErrorCode ReadFiber_Private(Scene s, const SceneNode *node, Material
   fiber->straight = direction ? PETSC_TRUE : PETSC_FALSE;
   PetscCheckInput(!direction || !angle, "%s has an angle and a direction; allowed: one of them", NodeWhere(node));
   PetscCheckInput(!field || (!direction && !angle), "%s has a field and %s; allowed: one of them", NodeWhere(node), angle ? "an angle" : "a direction");
-  PetscCheckInput(!field || fiber->field[0], "%s is empty; it must name a field of the mesh", NodeWhere(field));
   PetscCheckInput(direction || angle || field, "%s needs an angle, or a direction {x, y, z}, or a field of the mesh", NodeWhere(node));
   for (int c = 0; c < 3; ++c) length += PetscSqr(fiber->direction[c]);
   length = PetscSqrtReal(length);

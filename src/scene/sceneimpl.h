@@ -27,6 +27,7 @@ PetscErrorCode NodeSetText(SceneNode *, const char *text);
 SceneNode     *NodeFind(const SceneNode *map, const char *key); /* child or NULL; map may be NULL */
 PetscInt       NodeCount(const SceneNode *);                    /* children; NULL: 0 */
 PetscBool      NodeIsEmpty(const SceneNode *);                  /* `key:` with nothing after it */
+PetscBool      NodeIsNull(const SceneNode *);                   /* the same, or YAML's words for it */
 const char    *NodeWhere(const SceneNode *);                    /* "file:line: a.b.c" in a buffer that lives until the eighth next call */
 const char    *NodeOptions(PetscInt line);                      /* where options with this line come from, in words */
 

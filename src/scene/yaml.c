@@ -78,6 +78,15 @@ PetscBool NodeIsEmpty(const SceneNode *node)
   return node->kind == NODE_SCALAR && !node->quoted && !node->text[0] ? PETSC_TRUE : PETSC_FALSE;
 }
 
+PetscBool NodeIsNull(const SceneNode *node)
+{
+  static const char *const words[] = {"", "~", "null", "Null", "NULL"};
+
+  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(words); ++i)
+    if (node->kind == NODE_SCALAR && !node->quoted && !strcmp(node->text, words[i])) return PETSC_TRUE;
+  return PETSC_FALSE;
+}
+
 const char *NodeOptions(PetscInt line)
 {
   return line == NODE_DATABASE ? "-options_file or PETSC_OPTIONS" : "command line";

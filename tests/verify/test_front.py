@@ -124,7 +124,21 @@ WRONG = [("mesh.file", GONE), ("model", GONE), ("body.upper.material", GONE), ("
          ("boundary.top.load", 1), ("contact.pair.order", 2), ("contact.pair.roles", "swap"), ("contact.pair.subdivide", 9), ("contact.pair.friction", -1),
          ("contact.pair.law", "stick"), ("contact.pair.search", -1), ("contact.pair.slave", "a"), ("load.end", 0), ("load.step", -1),
          ("load.max_steps", 0), ("load.control", "force"), ("load.steps", 10), ("adapt.tolerance", 1), ("adapt.fraction", 0), ("adapt.strategy", "r"),
-         ("adapt.max_order", 9), ("output.divide", 9), ("output.fields", "maybe"), ("output.checkpoint", -1), ("probe.p.w", 1), ("title", [])]
+         ("adapt.max_order", 9), ("output.divide", 9), ("output.fields", "maybe"), ("output.checkpoint", -1), ("probe.p.w", 1), ("title", []), ("title", ""),
+         ("title", 256 * "t"), ("units", ""), ("output.quantities", ""), ("output.directory", ""), ("output.overwrite", 2)]
+ODD = [("adapt", None), ("order", 1.0), ("output.overwrite", 1), ("output.fields", "no"), ("title", 255 * "t")]
+
+
+@pytest.mark.parametrize("path,value", ODD)
+def test_schema_takes_what_the_program_takes(validator, tmp_path, path, value):
+    scene = copy.deepcopy(BASE)
+    *above, last = path.split(".")
+    (scene.setdefault(above[0], {}) if above else scene)[last] = value
+    assert not list(validator.iter_errors(scene))
+    (tmp_path / "patch2d.geo").write_text("")
+    (tmp_path / "odd.yml").write_text(yaml.safe_dump(scene))
+    status, _, error = execute([str(PROGRAM), str(tmp_path / "odd.yml"), "-check"])
+    assert status == 1 and "cells of dimension" in error, error
 
 
 @pytest.mark.parametrize("path,value", WRONG, ids=[f"{path}={value}" if value is not GONE else f"no {path}" for path, value in WRONG])

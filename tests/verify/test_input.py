@@ -199,7 +199,7 @@ def test_good_on_two_ranks(check):
     ((RUBBER, HGO % "fiber: {a: {angle: 29, direction: {x: 1}}}"), ["material.rubber.fiber.a has an angle and a direction"]),
     ((RUBBER, HGO % "fiber: {a: {angle: 29, field: f}}"), ["material.rubber.fiber.a has a field and an angle"]),
     ((RUBBER, HGO % "fiber: {a: {direction: {x: 1}, field: f}}"), ["material.rubber.fiber.a has a field and a direction"]),
-    ((RUBBER, HGO % "fiber: {a: {field: ''}}"), ["material.rubber.fiber.a.field is empty"]),
+    ((RUBBER, HGO % "fiber: {a: {field: ''}}"), ["material.rubber.fiber.a.field is ''; it must be a text"]),
     ((RUBBER, HGO % "fiber: {a: {field: f}}, frame: {axis: z}"), ["material.rubber.frame", "no fibre of this material has an angle"]),
     ((RUBBER, HGO % "fiber: {a: {field: f}}"), ["material.rubber.fiber.a.field: the mesh has no field 'f'", "none"]),
     ((RUBBER, HGO % "fiber: {a: {direction: {x: 0}}}"), ["material.rubber.fiber.a.direction is zero"]),
