@@ -7,6 +7,7 @@
 import concurrent.futures
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import tempfile
@@ -43,7 +44,8 @@ def run(scene, keys=None, directory=None, ranks=1, log=None, program=None):
     command = ["mpiexec", "-n", str(ranks)] if ranks > 1 else []
     command += [program or find_program(), str(scene)]
     for key, value in keys.items():
-        command += ["-" + key.replace(".", "_"), word(value)]
+        text = word(value)
+        command += ["-" + key.replace(".", "_"), " " * bool(re.match("--?[A-Za-z]", text)) + text]  # else a value "-t" would be an option
     with tempfile.TemporaryDirectory(prefix="m") as own:  # of MPI: starts at the same time disturb each other in one
         done = subprocess.run(command, capture_output=True, text=True, env={**os.environ, "TMPDIR": own, "OMP_NUM_THREADS": "1"})
     if done.returncode == 1:

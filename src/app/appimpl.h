@@ -84,8 +84,9 @@ typedef struct {
 
 /* start.c: PetscInitialize, cheaply for a single process. A file of -options_file that cannot be read is an input error. */
 PetscErrorCode AppInitialize(int argc, char **argv);
-/* optionfiles.c: does a file of options that PETSc will read name itself? told: its name. Before anything is started. */
-PetscBool AppOptionsLoop(int argc, char **argv, size_t capacity, char told[]);
+/* optionfiles.c: is a file of options that PETSc will read one that names itself, or has a quotation mark that is not closed? told: which, and how. Before
+   anything is started. */
+PetscBool AppOptionsWrong(int argc, char **argv, size_t capacity, char told[]);
 /* loadstep.c: all load steps; app->failure is set when the solver gives up. Collective. */
 PetscErrorCode AppRun(App *);
 /* The next step from the accepted state. */

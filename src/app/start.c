@@ -193,8 +193,8 @@ static PetscBool Refused_Private(int argc, char **argv, PetscBool speaks)
     if (speaks) fprintf(stderr, "mortise: the working directory cannot be found: %s; start in one that is there\n", strerror(errno));
     return PETSC_TRUE;
   }
-  if (!AppOptionsLoop(argc, argv, sizeof(told), told)) return PETSC_FALSE;
-  if (speaks) (void)ErrorInput("-options_file: %s names itself, so that reading it would not end", told);
+  if (!AppOptionsWrong(argc, argv, sizeof(told), told)) return PETSC_FALSE;
+  if (speaks) (void)ErrorInput("-options_file: %s", told);
   return PETSC_TRUE;
 }
 

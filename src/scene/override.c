@@ -165,18 +165,22 @@ static void Match_Private(PetscInt num, char words[OPTION_DEPTH][MORTISE_NAME], 
   }
 }
 
-/* Value of a list: "[0,0, 1,1]" or "0,0,1,1"; of names, with blanks in them: "[a, b c]". */
-static PetscErrorCode SetList_Private(SceneNode *list, const char *value, PetscBool names)
+/* Value of a list: "[0,0, 1,1]" or "0,0,1,1"; names may have blanks in them: "[a, b c]". */
+static PetscErrorCode SetList_Private(SceneNode *list, const char *value)
 {
-  const char *between = names ? "[]," : "[], ";
-  char       *copy, *item, *rest;
-  SceneNode  *node;
+  const size_t    length = strlen(value);
+  const PetscBool opens = (PetscBool)(value[0] == '['), closes = (PetscBool)(length > 0 && value[length - 1] == ']');
+  char           *copy, *item, *rest;
+  SceneNode      *node;
 
   PetscFunctionBegin;
-  PetscCall(PetscStrallocpy(value, &copy));
-  for (item = strtok_r(copy, between, &rest); item; item = strtok_r(NULL, between, &rest)) {
+  PetscCheckInput(opens == closes && length != 1, "%s is '%s'; a list that begins with [ ends with ]", NodeWhere(list), value);
+  PetscCall(PetscStrallocpy(value + opens, &copy));
+  if (closes) copy[length - 2] = 0;
+  for (rest = copy[strspn(copy, " ")] ? copy : NULL; (item = strsep(&rest, ","));) {
     item += strspn(item, " ");
     for (size_t end = strlen(item); end > 0 && item[end - 1] == ' ';) item[--end] = 0;
+    PetscCheckInput(item[0], "%s is '%s'; nothing stands between two of its commas, or at its end", NodeWhere(list), value);
     PetscCall(NodeCreate(list, "", NODE_SCALAR, list->origin, 0, &node));
     PetscCall(NodeSetText(node, item));
   }
@@ -208,7 +212,7 @@ static PetscErrorCode Set_Private(SceneNode *root, const Match *m, const char *v
   at->first = at->last = NULL;
   at->quoted           = PETSC_TRUE;
   if (at->kind == NODE_LIST)
-    PetscCall(SetList_Private(at, value, (PetscBool)(m->type == KEY_GROUPS)));
+    PetscCall(SetList_Private(at, value));
   else
     PetscCall(NodeSetText(at, value));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -235,7 +239,8 @@ static PetscErrorCode Override_Private(SceneNode *root, const char *name, const 
     PetscCall(OptionNearest(root, name, '_', sizeof(nearest), nearest));
     PetscCall(ErrorInput("%s: -%.80s is not a key of this scene; the nearest one is -%s", NodeOptions(line), name, nearest));
   }
-  PetscCheckInput(value && value[0], "%s: -%s needs a value", NodeOptions(line), name);
+  PetscCheckInput(value && value[0], "%s: -%s needs a value; one that begins with '-' and a letter needs a blank before it, in quotation marks: \" -t\"",
+                  NodeOptions(line), name);
   PetscCheckInput(TextIsPlain(value, "\n\r\t"), "%s: a control character in the value of -%.80s", NodeOptions(line), name);
   PetscCall(Set_Private(root, &best, value, line));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -392,6 +392,13 @@ def test_output_cannot_be_written(check):
     (["-material_rubber_E", "x"], ["command line: material.rubber.E is 'x'"]),
     (["-adapt_tolernce", "1"], ["-adapt_tolernce", "-adapt_tolerance"]),
     (["-order"], ["-order needs a value"]),
+    (["-boundary_top_displacement_y", "-t"], ["-boundary_top_displacement_y needs a value", "a blank before it, in quotation marks"]),
+    (["-contact_pair_nonmortar", "[upper_bottom"], ["contact.pair.nonmortar is '.upper_bottom'", "ends with ]"]),
+    (["-contact_pair_nonmortar", "[upper_bottom,]"], ["nothing stands between two of its commas, or at its end"]),
+    (["-boundary_top_amplitude", "[0,0,1,1"], ["boundary.top.amplitude is '.0,0,1,1'", "ends with ]"]),
+    (["-boundary_top_amplitude", "0,0,1,1]"], ["boundary.top.amplitude is '0,0,1,1]'"]),
+    (["-boundary_top_amplitude", "[0,0,1,1]]"], ["boundary.top.amplitude: \"1]\" is neither a number"]),
+    (["-boundary_top_amplitude", "[0,0,,1]"], ["nothing stands between two of its commas"]),
     (["second.yml"], ["second.yml"]),
     (["-order", "2", "3"], ["'3' is neither the scene nor an option nor its value"]),
     (["-adaptt_tolerance", "1"], ["-adaptt_tolerance is no key of a scene and no option", "-adapt_tolerance"]),
@@ -469,6 +476,7 @@ def test_options_file(check, tmp_path, ranks):
     ("-solve_rtoll 1e-8", ["-solve_rtoll is no option of the solver"]),
     ("-tolerance 1", ["-tolerance is no key of a scene and no option"]),
     ("order 2", ["-options_file: .* line 1: order"]),
+    ("-order 2\n-boundary_top_displacement_y \"-t", ["-options_file: .*options.txt:2: a quotation mark is not closed"]),
     ("-boundary_top_displacement_y -0.02 * t", ["-options_file: .* line 1: extra token"]),
 ])
 def test_options_file_refused(check, tmp_path, line, words):

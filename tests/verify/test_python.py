@@ -75,6 +75,12 @@ def test_runs_and_reads(tmp_path, monkeypatch):
         mortise.run(ROOT / "inputs" / "patch2d.yml", {"material.rubber.nu": 0.7}, tmp_path / "out" / "wrong")
 
 
+def test_values_that_begin_with_a_minus(tmp_path, monkeypatch):
+    monkeypatch.setenv("MORTISE", str(PROGRAM))
+    (run,) = mortise.sweep(ROOT / "inputs" / "patch2d.yml", "boundary.top.displacement.y", ["-t*0.05"], directory=tmp_path / "out").values()
+    assert run.summary["status"] == "converged" and run.directory == tmp_path / "out" / "-t*0.05"
+
+
 def test_places_of_their_own(tmp_path):
     """A sweep keeps runs apart whose values are written alike, and below its directory; what is not there is no empty run."""
     from mortise import running
