@@ -97,15 +97,6 @@ def test_what_a_killed_run_leaves(tmp_path):
     assert second.summary["status"] == "stopped" and not (tmp_path / "out" / "lock").exists()
 
 
-@pytest.mark.parametrize("name", ["fields_0000.h5", "summary.json", "history.csv", "checkpoint.h5"])
-def test_directories_with_names_of_results(run, tmp_path, name):
-    """They are not replaced, and told of before the run."""
-    (tmp_path / "out1" / name).mkdir(parents=True)
-    result = run("s.yml", "-output_overwrite", "true", text=block(tmp_path))
-    assert result.returncode == 1 and f"{name} in it is a directory" in result.stderr and "accepted" not in result.stdout, result
-    assert os.listdir(tmp_path / "out1") == [name]
-
-
 def test_who_has_it_writes_its_name(tmp_path):
     """A run that takes over what a killed one has left has the lock before its name stands there (its name was nobody's, process 0)."""
     text = block(tmp_path)
