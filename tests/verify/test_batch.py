@@ -355,14 +355,28 @@ def test_the_checkpoint_before(tmp_path):
     ('/**//* " */ SystemCall "touch here"; //"', "SystemCall calls a program"),
     ('StringToName["SystemCall"] "touch here";', "StringToName makes a statement"), ('S2N["SystemCall"] "touch here";', "S2N makes a statement"),
     ('Error("x") > "here";', "Error writes a file"), ('Save "here.msh";', "Save writes a file"), ('Print "here.png";', "Print writes a file"),
-    ('CreateDir "here";', "CreateDir makes"), ('Include StrCat("mo", "re");', "at run time"), ('Merge "more";', "more:1: SystemCall"),
+    ('CreateDir "here";', "CreateDir makes"), ('Include StrCat("mo", "re");', "at run time"), ('Include "more";', "more:1: SystemCall"),
     ('Field[1] = ExternalProcess; Field[1].CommandLine = "touch here";', "ExternalProcess calls"), ("\0\nSystemCall 'touch here';", "zero byte"),
     ('Include "pipe";', "pipe:1: this is no file that could be read here"), ('Include ".";', "this is no file that could be read here"),
-    ('Print.Format = 1; Mesh.SaveAll = 0; Merge "none.msh";', None), ('Printf("Save x > %g", 1);', None),
+    ('Merge "more";', "Merge takes a file that is no .geo"), ('Merge "more.py";', "Merge takes a file that is no .geo"), ('Merge "more.pro";', "is no .geo"),
+    ('Include "more.msh";', "more.msh:1: SystemCall"), ('Merge "more.msh";', "does not begin with $MeshFormat"), ('Merge "more.Step";', "is no .geo"),
+    ('Merge "options.stl";', "options.stl.opt:1: SystemCall"), ('Include "options.stl";', "options.stl.opt:1: SystemCall"),
+    ('Merge "options.geo";', "options.geo.opt.opt:1: SystemCall"), ('Include "C:/more";', "with \\ or : in it"), ('Include "/proc/self/cmdline";', "no file that could be read"),
+    ("x = '" + 1023 * "a" + " SystemCall \"touch here\"; //';", "SystemCall calls"), ("Printf('" + 1023 * "a" + ") > \"here\"; //');", "Printf has a string of more than 1023"),
+    ('Plugin(Bubbles).OutputFile = "here"; Plugin(Bubbles).Run;', "Plugin may write a file"), ('Solver.Extension0 = ".stp";', "Solver sets a program"),
+    ('For i In {1:2} /*\nSystemCall "touch here"; // */\nEndFor', "SystemCall calls"),  # gmsh goes back to the line behind that of For
+    ("If(0)\nx = \" EndIf SystemCall 'touch here'; \";\nEndIf", "SystemCall calls"),  # and looks for EndIf in strings
+    ('text = "here"; Save text;', "Save writes a file"), ("Save View[0] 'here';", "Save writes a file"),
+    ('Print.Format = 1; Mesh.SaveAll = 0; Merge "none.msh";', None), ('Printf("Save x > %g", 1);', None), ("Save = 1; y = Save + 1;", None), ("Save[] = {1, 2};", None),
+    ("For Save In {1:2} // SystemCall 'touch here';\nEndFor", None), ("/* of more lines\nSystemCall 'touch here'; */", None), ('Merge "good.msh"; Include "good.geo";', None),
 ])
 def test_a_geo_is_looked_through(run, tmp_path, line, words):
     (tmp_path / "s.geo").write_text(f"Point(1) = {{0, 0, 0}};\n{line}\n")
-    (tmp_path / "more").write_text('SystemCall "touch here";')
+    for name in ("more", "more.msh", "more.py", "more.Step", "options.stl.opt", "options.geo.opt.opt"):
+        (tmp_path / name).write_text('SystemCall "touch here";\n')
+    for name in ("options.stl", "options.geo", "options.geo.opt", "good.geo", "good.geo.opt"):
+        (tmp_path / name).write_text("x = 1;\n")
+    (tmp_path / "good.msh").write_text("$MeshFormat\n")
     os.mkfifo(tmp_path / "pipe")  # nobody writes to it
     result = run("s.yml", "-check", text=block(tmp_path, mesh={"file": "s.geo"}))
     if words:
