@@ -16,7 +16,7 @@ typedef struct {
   GroupName        *name; /* owned [num_names] physical names of the file */
   PetscInt          num_names;
   int               major; /* of the format version */
-  PetscBool         binary;
+  PetscBool         binary, simplices;
   DM                dm;
   CoarseMesh       *mesh;
   PetscInt          first_vertex, *vertex_id; /* owned, coarse vertex of each DMPlex vertex */
@@ -272,6 +272,7 @@ static PetscErrorCode Convert_Private(Reader *r)
   PetscInt        start, end, replica;
 
   PetscFunctionBegin;
+  if (!r->simplices) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(DMPlexTransformCreate(PETSC_COMM_SELF, &transform));
   PetscCall(DMPlexTransformSetType(transform, DMPLEXREFINETOBOX));
   PetscCall(DMPlexTransformSetDM(transform, r->dm));
@@ -320,7 +321,7 @@ static PetscErrorCode LoadShapes_Private(Reader *r)
             "mortise: note: mesh file '%s': curved triangles or tetrahedra are cut into %s with straight sides; gmsh's Mesh.SubdivisionAlgorithm keeps the "
             "curvature\n",
             r->told, r->spec->dim == 2 ? "quads" : "hexes");
-  PetscCall(Convert_Private(r));
+  r->simplices            = PETSC_TRUE;
   r->mesh->from_simplices = (PetscBool)(r->spec->dim == 3);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -611,6 +612,60 @@ static PetscErrorCode FacetVertices_Private(const Reader *r, PetscInt facet, Pet
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Middle of the vertices of a cell. */
+static PetscErrorCode Middle_Private(DM dm, PetscInt cell, PetscReal X[3])
+{
+  Vec                coordinates;
+  PetscSection       section;
+  const PetscScalar *x;
+  PetscInt          *closure = NULL, size, first, end, at, num = 0;
+
+  PetscFunctionBegin;
+  X[0] = X[1] = X[2] = 0;
+  PetscCall(DMGetCoordinatesLocal(dm, &coordinates));
+  PetscCall(DMGetCoordinateSection(dm, &section));
+  PetscCall(DMPlexGetDepthStratum(dm, 0, &first, &end));
+  PetscCall(VecGetArrayRead(coordinates, &x));
+  PetscCall(DMPlexGetTransitiveClosure(dm, cell, PETSC_TRUE, &size, &closure));
+  for (PetscInt i = 0; i < size; ++i) {
+    if (closure[2 * i] < first || closure[2 * i] >= end) continue;
+    PetscCall(PetscSectionGetOffset(section, closure[2 * i], &at));
+    for (PetscInt d = 0; d < 3; ++d) X[d] += PetscRealPart(x[at + d]);
+    ++num;
+  }
+  PetscCall(DMPlexRestoreTransitiveClosure(dm, cell, PETSC_TRUE, &size, &closure));
+  PetscCall(VecRestoreArrayRead(coordinates, &x));
+  for (PetscInt d = 0; d < 3; ++d) X[d] /= num;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* An element of a boundary group that joins vertices of a cell but is none of its facets, as a diagonal: DMPlex takes the cell itself for it. */
+static PetscErrorCode CheckFacets_Private(Reader *r)
+{
+  DMLabel  label;
+  PetscInt num, *tags, num_points, *point, start, end, cell = -1;
+
+  PetscFunctionBegin;
+  PetscCall(DMPlexGetHeightStratum(r->dm, 0, &start, &end));
+  PetscCall(LabelTags_Private(r->dm, "Face Sets", &label, &num, &tags));
+  for (PetscInt i = 0; i < num && cell < 0; ++i) {
+    char      name[MORTISE_NAME];
+    PetscReal X[3];
+    PetscCall(TaggedPoints_Private(label, tags[i], &num_points, &point));
+    for (PetscInt k = 0; k < num_points && cell < 0; ++k)
+      if (point[k] >= start && point[k] < end) cell = point[k];
+    PetscCall(PetscFree(point));
+    if (cell < 0) continue;
+    PetscCall(NameOf_Private(r, r->spec->dim - 1, tags[i], name));
+    PetscCall(Middle_Private(r->dm, cell, X));
+    (void)snprintf(r->message, r->length,
+                   "mesh file '%s': an element of boundary group '%s' joins nodes of the cell at (%g, %g, %g) and is none of its facets, as a diagonal",
+                   r->told, name, (double)X[0], (double)X[1], (double)X[2]);
+  }
+  PetscCall(PetscFree(tags));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Bits of the boundary groups on every facet. mask: one word for each facet. */
 static PetscErrorCode MarkFacets_Private(Reader *r, PetscInt start, PetscInt end, uint64_t mask[])
 {
@@ -673,8 +728,9 @@ static PetscErrorCode ReadFields_Private(Reader *r)
 PetscErrorCode ForestReadGmsh(const ForestSpec *spec, CoarseMesh *mesh, PetscInt *num_facets, PetscInt **facet_vertices, uint64_t **facet_groups, size_t length,
                               char message[])
 {
-  static PetscErrorCode (*const step[])(Reader *) = {ReadHeader_Private,     LoadShapes_Private, ReadCells_Private,      Orient_Private,
-                                                     NumberVertices_Private, ReadBodies_Private, ReadBoundaries_Private, ReadFields_Private};
+  static PetscErrorCode (*const step[])(Reader *) = {ReadHeader_Private,     LoadShapes_Private, CheckFacets_Private,    Convert_Private,
+                                                     ReadCells_Private,      Orient_Private,     NumberVertices_Private, ReadBodies_Private,
+                                                     ReadBoundaries_Private, ReadFields_Private};
   Reader r = {.spec = spec, .told = spec->told[0] ? spec->told : spec->file, .message = message, .length = length, .mesh = mesh};
 
   PetscFunctionBegin;
