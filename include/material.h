@@ -119,6 +119,10 @@ const MaterialLaw       *MaterialLawFind(const char *name);
    parameters with the nearest known one, resolves `mixed`. Messages start with "material.<name>.<parameter>". */
 PetscErrorCode MaterialSetUp(MaterialSpec *, PetscInt num, const char *const names[], const PetscReal values[]);
 
+/* Does the law's parameter of this name take the value? Else a sentence on what stands where (text: the value as it was given); an unknown name is
+   MaterialSetUp's to tell. */
+PetscErrorCode MaterialCheckRange(const MaterialLaw *, const char name[], PetscReal value, const char where[], const char text[]);
+
 /* Young's modulus; 3 mu for incompressible material. */
 static inline PetscReal MaterialYoung(const MaterialSpec *spec)
 {

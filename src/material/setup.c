@@ -32,6 +32,15 @@ static PetscInt Distance_Private(const char *a, const char *b)
   return row[nb];
 }
 
+/* NULL: the law has none of this name. */
+static const MaterialParameter *Find_Private(const MaterialLaw *law, const char name[])
+{
+  for (const MaterialParameter *p = law->parameters; p->name; p++) {
+    if (!strcmp(p->name, name)) return p;
+  }
+  return NULL;
+}
+
 /* An unknown parameter: name the nearest and all known ones. */
 static PetscErrorCode Unknown_Private(const MaterialSpec *spec, const char *name)
 {
@@ -48,17 +57,15 @@ static PetscErrorCode Unknown_Private(const MaterialSpec *spec, const char *name
   PetscFunctionReturn(ErrorInput("material.%s.%s: unknown; nearest known: %s (%s has %s)", spec->name, name, nearest->name, spec->law->name, list));
 }
 
-static PetscErrorCode CheckRange_Private(const MaterialSpec *spec, const MaterialParameter *p, PetscReal value)
+PetscErrorCode MaterialCheckRange(const MaterialLaw *law, const char name[], PetscReal value, const char where[], const char text[])
 {
+  const MaterialParameter *p = Find_Private(law, name);
+
   PetscFunctionBegin;
-  if (MaterialIsLimit(p, value)) PetscFunctionReturn(PETSC_SUCCESS);
-  if (p->max < PETSC_MAX_REAL)
-    PetscCheckInput(value > p->min && value < p->max, "material.%s.%s: %g is not between %g and %g", spec->name, p->name, (double)value, (double)p->min,
-                    (double)p->max);
-  if (p->min > PETSC_MIN_REAL)
-    PetscCheckInput(value > p->min && value < p->max, "material.%s.%s: %g is not a finite number above %g", spec->name, p->name, (double)value, (double)p->min);
-  PetscCheckInput(value > p->min && value < p->max, "material.%s.%s: %g is not a finite number", spec->name, p->name, (double)value);
-  PetscFunctionReturn(PETSC_SUCCESS);
+  if (!p || MaterialIsLimit(p, value) || (value > p->min && value < p->max)) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCheckInput(p->max == PETSC_MAX_REAL, "%s: %s is not between %g and %g", where, text, (double)p->min, (double)p->max);
+  PetscCheckInput(p->min == PETSC_MIN_REAL, "%s: %s is not a finite number above %g", where, text, (double)p->min);
+  PetscFunctionReturn(ErrorInput("%s: %s is not a finite number", where, text));
 }
 
 static PetscReal Poisson_Private(const MaterialSpec *spec)
@@ -158,12 +165,14 @@ PetscErrorCode MaterialSetUp(MaterialSpec *spec, PetscInt num, const char *const
   PetscCheck(spec->law, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONGSTATE, "Material %s has no law", spec->name);
   for (PetscInt k = 0; k < MATERIAL_MAX_PARAMETERS; k++) spec->parameter[k] = (PetscReal)NAN;
   for (PetscInt i = 0; i < num; i++) {
-    PetscInt k = 0;
+    const MaterialParameter *p = Find_Private(spec->law, names[i]);
+    char                     where[2 * MORTISE_NAME + 16], text[32];
 
-    while (spec->law->parameters[k].name && strcmp(spec->law->parameters[k].name, names[i])) k++;
-    if (!spec->law->parameters[k].name) PetscCall(Unknown_Private(spec, names[i]));
-    PetscCall(CheckRange_Private(spec, &spec->law->parameters[k], values[i]));
-    spec->parameter[k] = values[i];
+    if (!p) PetscCall(Unknown_Private(spec, names[i]));
+    (void)snprintf(where, sizeof(where), "material.%s.%s", spec->name, names[i]);
+    (void)snprintf(text, sizeof(text), "%.15g", (double)values[i]);
+    PetscCall(MaterialCheckRange(spec->law, names[i], values[i], where, text));
+    spec->parameter[p - spec->law->parameters] = values[i];
   }
   PetscCheckInput(!spec->num_fibers || spec->law->fibers, "material.%s.fiber: the law %s has no fibres; hgo has", spec->name, spec->law->name);
   PetscCheckInput(spec->num_fibers || !spec->law->fibers, "material.%s.fiber: missing; %s needs one to %d families, fiber: {a: {angle: 29}}", spec->name,

@@ -162,6 +162,7 @@ static PetscErrorCode ReadMaterial_Private(Scene s, SceneNode *node, MaterialEnt
     if (!OptionKnowsParameter(child->key)) continue;
     PetscCheckInput(Parameter_Private(child->text, &values[num]), "%s is '%s'; it must be a number", NodeWhere(child), child->text);
     PetscCheckInput(num < 63, "%s has too many parameters", NodeWhere(node));
+    PetscCall(MaterialCheckRange(m->spec.law, child->key, values[num], NodeWhere(child), child->text));
     names[num++] = child->key;
   }
   PetscCheckInput(!(m->spec.law->rigid || m->spec.law->small || m->spec.law->whole) || !NodeFind(node, "volumetric"),
