@@ -322,3 +322,45 @@ void GeoCheck(const char *file, size_t capacity, char message[])
   File_Private(file, 0, &found);
   Options_Private(file, 0, &found);
 }
+
+/* Behind the first mention of a constant, outside of brackets: is it given a value that gmsh does not ask for? */
+static PetscBool IsGiven_Private(Geo g)
+{
+  const GeoToken token = Next_Private(&g);
+
+  return (PetscBool)(IsSign_Private(&g, token, "=") && *g.at != '=' && !(Next_Private(&g) == GEO_WORD && !strcmp(g.word, "DefineNumber")));
+}
+
+/* How much deeper in brackets, or in what depends on a condition, one is behind a token. */
+static int Deeper_Private(const Geo *g, GeoToken token)
+{
+  if (token == GEO_WORD) return !strcmp(g->word, "If") - !strcmp(g->word, "EndIf");
+  return IsSign_Private(g, token, "([{") - IsSign_Private(g, token, ")]}");
+}
+
+/* The first mention tells; in DefineConstant it is in brackets. Behind files that are included or merged, which are not looked into, everything may be. */
+static const char *FirstMention_Private(Geo g, const char *constant)
+{
+  PetscBool option = PETSC_FALSE; /* a dot before it: not a constant */
+  int       depth  = 0;
+
+  for (GeoToken token = Next_Private(&g); token != GEO_END; token = Next_Private(&g)) {
+    if (token == GEO_WORD && IsOneOf_Private(g.word, PETSC_STATIC_ARRAY_LENGTH(Includes), Includes)) return "";
+    if (token == GEO_TEXT && !strcmp(g.name, constant)) return ""; /* Name "constant" */
+    if (token == GEO_WORD && !option && !strcmp(g.word, constant))
+      return !depth && IsGiven_Private(g) ? "gives it a value before it declares it, so no other would act; take that statement away" : "";
+    option = IsSign_Private(&g, token, ".");
+    depth += Deeper_Private(&g, token);
+  }
+  return "declares no such constant";
+}
+
+const char *GeoCheckConstant(const char *file, const char *constant)
+{
+  size_t      length;
+  char       *text = Text_Private(file, &length);
+  const char *said = text ? FirstMention_Private((Geo){.at = text}, constant) : "cannot be read";
+
+  free(text);
+  return said;
+}

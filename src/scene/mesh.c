@@ -1,6 +1,5 @@
 /* A .geo becomes a .msh by the program gmsh, run on rank 0 in a temporary directory; a .msh is taken as it is. */
 #include "sceneimpl.h"
-#include <ctype.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <signal.h>
@@ -163,25 +162,6 @@ static void Scan_Private(const char *file, PetscInt *dim, PetscBool *simplices)
   if (f) (void)fclose(f);
 }
 
-/* Does the .geo speak of the constant? Files it includes are not looked into: then the answer is yes. */
-static PetscBool Declares_Private(const char *file, const char *constant)
-{
-  char      line[4096];
-  PetscBool found = PETSC_FALSE;
-  size_t    n     = strlen(constant);
-  FILE     *f     = fopen(file, "r");
-
-  while (f && !found && fgets(line, sizeof(line), f)) {
-    if (strstr(line, "Include") || strstr(line, "Merge")) found = PETSC_TRUE;
-    for (const char *s = line; !found && (s = strstr(s, constant)); ++s) {
-      char before = s == line ? ' ' : s[-1], after = s[n];
-      if (!isalnum((unsigned char)before) && before != '_' && !isalnum((unsigned char)after) && after != '_') found = PETSC_TRUE;
-    }
-  }
-  if (f) (void)fclose(f);
-  return found;
-}
-
 /* What gmsh reads behind the .geo, whose own statements about the format of the mesh would leave one that is not read here. */
 static const char Format[] = "Mesh.Format = 1; Mesh.MshFileVersion = 4.1; Mesh.Binary = 0; Mesh.SaveParametric = 0;\n";
 
@@ -307,8 +287,10 @@ static void Find_Private(Scene s, MeshResult *r)
     (void)snprintf(r->message, sizeof(r->message), "%s: %s cannot be read", where, r->file);
   else if (!geo && parameter)
     (void)snprintf(r->message, sizeof(r->message), "%s: only a .geo has parameters, mesh.file is %s", NodeWhere(parameter), s->mesh_file);
-  for (SceneNode *p = geo && parameter && !r->message[0] ? parameter->first : NULL; p && !r->message[0]; p = p->next)
-    if (!Declares_Private(r->file, p->key)) (void)snprintf(r->message, sizeof(r->message), "%s: %s declares no such constant", NodeWhere(p), r->file);
+  for (SceneNode *p = geo && parameter && !r->message[0] ? parameter->first : NULL; p && !r->message[0]; p = p->next) {
+    const char *said = GeoCheckConstant(r->file, p->key);
+    if (said[0]) (void)snprintf(r->message, sizeof(r->message), "%s: %s %s", NodeWhere(p), r->file, said);
+  }
 }
 
 PetscErrorCode SceneMakeMesh(Scene s)

@@ -175,6 +175,8 @@ PetscErrorCode SceneMakeMesh(Scene);
 PetscErrorCode SceneRemoveMesh(Scene);
 /* A sentence when the .geo, or what it includes, can call a program or write a file, else "" (geo.c). */
 void GeoCheck(const char *file, size_t capacity, char message[]);
+/* What a .geo does, so that a constant cannot be set from outside; "": it can be. */
+const char *GeoCheckConstant(const char *file, const char *constant);
 /* Match names with the groups of the mesh, fill data.bodies, boundaries, contacts, and check them (check.c). Collective. */
 PetscErrorCode SceneCheckMesh(Scene, Forest);
 /* Warnings and notes on a mesh that may not be what is meant (pieces.c); after SceneCheckMesh. Collective. */

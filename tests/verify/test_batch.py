@@ -397,6 +397,19 @@ def test_a_geo_that_is_trusted(run, tmp_path):
     assert run("s.yml", "-check", "-mesh_trust", "true", text=scene).returncode == 0 and (tmp_path / "here").exists()
 
 
+@pytest.mark.parametrize("text,words", [
+    ("// DefineConstant[n = 3];", "declares no such constant"), ("/* n */ x = 'a n b';", "declares no such constant"), ("Mesh.n = 3;", "declares no such constant"),
+    ("n = 5;\nDefineConstant[n = 1];", "gives it a value before it declares it"), ("DefineConstant[n = 1]; n = n + 1;", None), ("If (!Exists(n)) n = 1; EndIf", None),
+    ("If (1) n = 1; EndIf", None), ("x = n;", None), ("n = DefineNumber[1, Name 'n'];", None), ("If (n == 1) x = 1; EndIf", None), ("Include 'more.geo';\nn = 1;", None),
+])
+def test_constants_of_a_geo(run, tmp_path, text, words):
+    """Those that it declares, where a value from outside acts."""
+    (tmp_path / "s.geo").write_text(f"Point(1) = {{0, 0, 0}};\n{text}\n")
+    result = run("s.yml", "-check", "-mesh_parameter_n", 2, text=block(tmp_path, mesh={"file": "s.geo"}))
+    refused(result, words or "mesh.file")
+    assert ("mesh.parameter.n" in result.stderr) == bool(words), result
+
+
 # ---- what is told ---------------------------------------------------------------------------------------------------------------------------
 
 
