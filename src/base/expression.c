@@ -53,11 +53,13 @@ static PetscErrorCode Parse_Private(Expression e)
   mupSetExpr(e->parser, e->text);
   value = mupEvalMulti(e->parser, &num);
   if (mupError(e->parser)) {
-    char place[64];
+    char        place[64];
+    const char *words = place;
     (void)snprintf(place, sizeof(place), "there is an error at character %d", PetscMax(mupGetErrorPos(e->parser) + 1, 1));
-    /* muParser's own words repeat what they speak of, in a buffer that has room for little of it. */
-    PetscCall(ErrorInput("%s: \"%s\" is neither a number nor an expression in X, Y, Z, t and pi: %s", e->key, e->text,
-                         strlen(e->text) > WORDS ? place : mupGetErrorMsg(e->parser)));
+    /* muParser's own words repeat what they speak of, in a buffer that has room for little of it. For a sign without a number behind it it has none. */
+    if (strlen(e->text) <= WORDS) words = mupGetErrorMsg(e->parser);
+    if (!strcmp(words, "Internal error")) words = "a sign in it has nothing to act on";
+    PetscCall(ErrorInput("%s: \"%s\" is neither a number nor an expression in X, Y, Z, t and pi: %s", e->key, e->text, words));
   }
   PetscCheckInput(value && num == 1, "%s: \"%s\" gives %d values, not one", e->key, e->text, num);
   for (int i = 0, n = mupGetExprVarNum(e->parser); i < n; ++i) {

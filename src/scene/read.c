@@ -16,7 +16,7 @@ static const char *Stem_Private(const char *file, char stem[MORTISE_NAME])
 static PetscErrorCode CheckSteps_Private(const char *origin, const LoadSpec *load)
 {
   PetscFunctionBegin;
-  PetscCheckInput(load->step <= load->end, "%s: load.step is %g, but load.end only %g", origin, (double)load->step, (double)load->end);
+  PetscCheckInput(load->step <= load->end, "%s: load.step is %g; allowed: up to load.end, which is %g", origin, (double)load->step, (double)load->end);
   PetscCheckInput(load->step >= LEAST_STEP * load->end, "%s: load.step is %g; allowed: %g of load.end and more, %g", origin, (double)load->step, LEAST_STEP,
                   (double)(LEAST_STEP * load->end));
   PetscCheckInput(load->step_min >= LEAST_STEP / 1024 * load->end, "%s: load.step_min is %g; allowed: %g and more, which load.end = %g can tell apart", origin,

@@ -31,6 +31,8 @@ def more(keys):
     ([("E: 1,", "E: '1,5',")], ["material.rubber.E is '1,5'"]), ([("E: 1,", "E: 1_000,")], ["material.rubber.E is '1_000'"]),
     ([("E: 1,", "E: true,")], ["material.rubber.E is 'true'"]), ([("E: 1,", "E: null,")], ["material.rubber.E is 'null'"]),
     ([("E: 1,", "E: 0,")], ["material.rubber.E: 0 is not a finite number above 0"]), ([("nu: 0.3", "nu: -1")], ["material.rubber.nu: -1 is not between -1 and 0.5"]),
+    ([("y: -0.05", 'y: "-"')], ['displacement.y: "-" is neither', "a sign in it has nothing to act on"]),
+    ([("step: 0.5", "step: 2")], ["load.step is 2; allowed: up to load.end, which is 1"]),
     ([("nu: 0.3", "nu: 0.5000001")], ["s.yml:", ": material.rubber.nu: 0.5000001 is not between -1 and 0.5"]),
     ([("nu: 0.3", "nu: 0.5, volumetric: log")], ["material.rubber.volumetric: log has no incompressible limit"]),
     ([(RUBBER, "{law: saint_venant_kirchhoff, E: 1, nu: 0.5}")], ["saint_venant_kirchhoff has no incompressible limit"]),
