@@ -4,8 +4,8 @@
 const char *const ModelNames[]      = {"plane_strain", "axisymmetric", "3d", "Model", "MODEL_", NULL};
 const char *const KinematicsNames[] = {"finite", "small", "Kinematics", "KINEMATICS_", NULL};
 
-/* Outward normal of a leaf facet from its corners (2-D: edge, 3-D: the mean of a bilinear face). */
-static PetscErrorCode FacetNormal_Private(Forest forest, const ForestTables *t, PetscInt facet, PetscReal normal[3])
+/* Outward normal of a leaf facet from the corners of the part of it that goes up to `part` along each axis (2-D: edge, 3-D: the mean of a bilinear face). */
+static PetscErrorCode FacetNormal_Private(Forest forest, const ForestTables *t, PetscInt facet, PetscReal part, PetscReal normal[3])
 {
   const PetscInt leaf = t->facet_leaf[2 * (facet - t->first[t->dim - 1])], *cl = t->closure + t->closure_offset[t->first[t->dim] + leaf];
   PetscInt       index = 0, direction = 0;
@@ -22,7 +22,7 @@ static PetscErrorCode FacetNormal_Private(Forest forest, const ForestTables *t, 
   }
   for (PetscInt k = 0; k < 1 << (t->dim - 1); ++k) {
     PetscReal xi[3] = {0, 0, 0};
-    for (PetscInt d = 0, bit = 0; d < t->dim; ++d) xi[d] = d == direction ? high : (k >> bit++) & 1;
+    for (PetscInt d = 0, bit = 0; d < t->dim; ++d) xi[d] = d == direction ? high : part * ((k >> bit++) & 1);
     PetscCall(ForestMapPoint(forest, leaf, xi, corner[k]));
   }
   for (PetscInt c = 0; c < 3; ++c) {
@@ -48,13 +48,51 @@ static PetscErrorCode GroupNormal_Private(HPSpace space, const BoundarySpec *b, 
     const PetscInt *leaf = t->facet_leaf + 2 * (f - t->first[t->dim - 1]);
     PetscReal       n[3];
     if (!((t->boundary[f] >> b->group) & 1) || leaf[0] < 0 || leaf[1] >= 0 || t->parent[f] >= 0) continue;
-    PetscCall(FacetNormal_Private(forest, t, f, n));
+    PetscCall(FacetNormal_Private(forest, t, f, 1, n));
     if (!found) PetscCall(PetscArraycpy(normal, n, 3));
     found = PETSC_TRUE;
     PetscCheckInput(Dot3(n, normal) > 1 - 1e-6,
                     "boundary.%s.fix: normal needs a flat face, but the normals of this one turn; split it into flat groups or fix x, y, z", b->name);
   }
   PetscCheckInput(found, "boundary.%s: the group has no facets on the boundary of a body", b->name);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Does a boundary hold its facets along their normals, all of them? Part of a facet tells whether it is curved. */
+static PetscErrorCode HoldsNormals_Private(HPSpace space, const BoundarySpec *b, PetscBool *holds)
+{
+  const Forest        forest = HPSpaceGetForest(space);
+  const ForestTables *t      = ForestGetTables(forest);
+
+  PetscFunctionBegin;
+  *holds = PETSC_TRUE;
+  for (PetscInt f = t->first[t->dim - 1]; f < t->first[t->dim] && *holds && !b->fix_normal; ++f) {
+    const PetscInt *leaf = t->facet_leaf + 2 * (f - t->first[t->dim - 1]);
+    PetscReal       n[2][3];
+    if (!((t->boundary[f] >> b->group) & 1) || leaf[0] < 0 || leaf[1] >= 0 || t->parent[f] >= 0) continue;
+    for (int part = 0; part < 2; ++part) PetscCall(FacetNormal_Private(forest, t, f, part ? 0.3 : 1, n[part]));
+    for (PetscInt c = 0; c < t->dim; ++c) {
+      const PetscBool held = (PetscBool)(b->displacement[c] || b->fix[c]);
+      if (!held && PetscMax(PetscAbsReal(n[0][c]), PetscAbsReal(n[1][c])) > 1e-6) *holds = PETSC_FALSE;
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* A pressure that is found has nothing to find there, one that is given loads the support alone. */
+static PetscErrorCode CheckPressure_Private(HPSpace space, const BoundarySpec *b)
+{
+  PetscBool holds = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  if (BoundarySupports(b) && BoundaryHasPressure(b)) PetscCall(HoldsNormals_Private(space, b, &holds));
+  PetscCheckInput(!holds || !BoundaryIsControlled(b),
+                  "boundary.%s.%s: the same boundary holds its surface along the normal (displacement, fix), so no pressure moves it; take one of them away",
+                  b->name, BoundaryPressureKey(b));
+  if (holds)
+    PetscCall(WarningAdd(ForestComm(HPSpaceGetForest(space)),
+                         "boundary.%s.pressure moves nothing: the same boundary holds its surface along the normal, whose reaction has the pressure in it",
+                         b->name));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -126,6 +164,7 @@ PetscErrorCode MechanicsSupportsCreate(HPSpace space, const MechanicsSpec *spec,
   for (PetscInt n = 0; n < v->num_nodes; ++n) out->rigid[n] = -1;
   for (PetscInt b = 0; b < spec->num_boundaries; ++b) {
     if (spec->boundaries[b].fix_normal) PetscCall(GroupNormal_Private(space, &spec->boundaries[b], out->normal[b]));
+    PetscCall(CheckPressure_Private(space, &spec->boundaries[b]));
   }
   for (PetscInt n = 0; n < v->num_nodes; ++n) {
     NodeSupport s = {0};

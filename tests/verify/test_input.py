@@ -169,6 +169,9 @@ def test_good_on_two_ranks(check):
     (("bottom: {fix: xy}", "bottom: {fix: xy}\n  lower_side: {volume: s}"), ["boundary.lower_side.volume", "X, Y, Z, t"]),
     (("bottom: {fix: xy}", "bottom: {fix: xy, volume: t}"), ["boundary.bottom.volume", "all displacements .* are prescribed"]),
     (("bottom: {fix: xy}", "bottom: {fix: xy}\n  lower_side: {volume: t}\n  lower_top: {advance: t}"), None),  # two of them: good
+    (("bottom: {fix: xy}", "bottom: {fix: xy}\n  lower_top: {displacement: {y: 0}, volume: t}"), ["boundary.lower_top.volume: .* holds its surface along the normal"]),
+    (("bottom: {fix: xy}", "bottom: {fix: xy}\n  lower_top: {fix: normal, advance: t}"), ["boundary.lower_top.advance: .* holds its surface along the normal"]),
+    (("bottom: {fix: xy}", "bottom: {fix: xy}\n  lower_top: {fix: x, advance: t}"), None),
     (("step: 0.5", "step: 0.5, control: riks"), ["load.control is 'riks'", r"time\|arc_length"]),
     (("step: 0.5", "step: 0.5, stop_displacement: -1"), ["load.stop_displacement is -1", "inf"]),
     (("step: 0.5", "step: 0.5, control: arc_length"), ["boundary.top.displacement", "arc_length", "factor of the loads"]),
@@ -259,6 +262,13 @@ def test_refused(check, edit, words):
         assert result.returncode == 0, result
     else:
         refused(result, *words)
+
+
+@pytest.mark.parametrize("held,told", [("fix: normal", True), ("displacement: {y: 0}", True), ("fix: x", False)])
+def test_a_pressure_that_moves_nothing(check, held, told):
+    """Its reaction may be wanted."""
+    result = check([("bottom: {fix: xy}", f"bottom: {{fix: xy}}\n  lower_top: {{{held}, pressure: 1}}")])
+    assert result.returncode == 0 and ("boundary.lower_top.pressure moves nothing" in result.stdout) == told, result
 
 
 def test_many_long_names(check):
