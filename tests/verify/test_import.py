@@ -322,6 +322,9 @@ STRIP = "*NODE\n1, 0, 0\n2, 1, 0\n3, 1, 1\n4, 0, 1\n*ELEMENT, TYPE=CPE4, ELSET=A
     ("a.inp", "*NODE\n1, 0, zero, 0\n", "is damaged or of another format"),
     ("a.inp", "*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 1, 1, 0\n4, 0, 1, 1\n*ELEMENT, TYPE=S4\n1, 1, 2, 3, 4\n", "is a surface in space"),
     ("a.inp", "*NODE\n1, 0, 0\n2, 1, 0\n*NGEN\n1, 2, 1\n", r"*NGEN makes nodes"),
+    ("a.inp", STRIP + "*NMAP\n", "*NMAP moves nodes"), ("a.inp", "*SYSTEM\n1, 1, 1\n" + STRIP, "*SYSTEM gives nodes in coordinates of its own"),
+    ("a.inp", STRIP.replace("*NODE", "*NODE, SYSTEM=C"), "*NODE, SYSTEM=C: only Cartesian"), ("a.inp", STRIP.replace("*NODE", "*NODE, INPUT=b"), "*NODE, INPUT=b: data lines"),
+    ("a.inp", STRIP + "*SOLID SECTION, ELSET=ALL\n*SOLID SECTION, ELSET=all\n", "set of cells all has two sections"),
     ("a.inp", STRIP + "*INCLUDE, INPUT=a.inp\n", "a.inp includes itself"),
     ("a.inp", STRIP + "*INCLUDE, INPUT=/dev/zero\n", "there is no file /dev/zero"),
     ("a.inp", STRIP.replace("3, 1, 1", "3, 1, nan"), "node 3 is at (1.0, nan, 0.0), which is no place"),
@@ -341,6 +344,17 @@ def test_refused(tmp_path, name, text, words):
     assert not (tmp_path / "out.msh").exists()
 
 
+def test_a_mesh_of_another_program_stays(tmp_path):
+    """One of its own is replaced."""
+    (tmp_path / "a.inp").write_text(STRIP + "*SYSTEM\n*ORIENTATION, SYSTEM=CYLINDRICAL\n")
+    assert all(convert(tmp_path / "a.inp", tmp_path / "a.msh").returncode == 0 for _ in range(2))
+    text = (tmp_path / "a.msh").read_text()
+    (tmp_path / "a.msh").write_text("mine")
+    done = convert(tmp_path / "a.inp", tmp_path / "a.msh")
+    assert done.returncode == 1 and "a.msh is there, and another program has made it" in done.stderr and (tmp_path / "a.msh").read_text() == "mine", done
+    assert convert(tmp_path / "a.inp", tmp_path / "a.msh", "--replace").returncode == 0 and (tmp_path / "a.msh").read_text() == text
+
+
 def test_strange_but_good(tmp_path):
     """A mark of the byte order, exponents of Fortran, a range of numbers most of which are not there, names that the locale has no letters for."""
     text = STRIP.replace("4, 0, 1", "4, 0.D0, 1d0").replace("ALL", "größe") + "*NSET, NSET=TOP, GENERATE\n3, 2000000000, 1\n"
@@ -358,7 +372,7 @@ def test_no_place_for_the_mesh(tmp_path, out, words):
     (tmp_path / "full").mkdir()
     (tmp_path / "full/a.msh").write_text("mine")
     with limited(resource.RLIMIT_FSIZE, 0 if "full" in out else 1000):
-        done = convert(tmp_path / "a.inp", tmp_path / out)
+        done = convert(tmp_path / "a.inp", tmp_path / out, "--replace")
     assert done.returncode == 1 and words in done.stderr and done.stderr.count("\n") == 1, done
     assert os.listdir(tmp_path / "full") == ["a.msh"] and (tmp_path / "full/a.msh").read_text() == "mine"
 
