@@ -23,6 +23,7 @@ PetscErrorCode SceneFindPoint(Scene s, const SceneNode *user, const char *name, 
   for (PetscInt i = 0; i < s->num_points; ++i) {
     if (strcmp(s->point[i].node->key, name)) continue;
     PetscCall(PetscArraycpy(X, s->point[i].X, 3));
+    s->point[i].used = PETSC_TRUE;
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   for (const SceneNode *child = points ? points->first : NULL; child; child = child->next) {

@@ -29,6 +29,34 @@ static PetscErrorCode CheckSteps_Private(const char *origin, const LoadSpec *loa
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Keys that act with another one alone: refused where that says otherwise, unless it does so on the command line, where it is for one run. */
+static PetscErrorCode CheckInert_Private(Scene s)
+{
+  const SceneNode *adapt = NodeFind(s->root, "adapt"), *output = NodeFind(s->root, "output"), *fields = NodeFind(output, "fields");
+  const struct {
+    const char *key, *with, *value;
+    PetscBool   acts;
+  } inert[] = {
+      {"share", "anisotropic", "true", s->data.adapt.anisotropic},
+      {"aspect", "anisotropic", "true", s->data.adapt.anisotropic},
+      {"max_order", "strategy", "p or hp", (PetscBool)(s->data.adapt.strategy != ADAPT_H)},
+  };
+  static const char *const drawn[] = {"quantities", "divide", "segments"};
+
+  PetscFunctionBegin;
+  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(inert); ++i) {
+    const SceneNode *key = NodeFind(adapt, inert[i].key), *with = NodeFind(adapt, inert[i].with);
+    PetscCheckInput(!key || inert[i].acts || (with && with->line <= 0), "%s acts with adapt.%s: %s alone; set that, or take this away", NodeWhere(key),
+                    inert[i].with, inert[i].value);
+  }
+  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(drawn); ++i) {
+    const SceneNode *key = NodeFind(output, drawn[i]);
+    if (key && !s->data.output.fields && fields->line > 0)
+      PetscCall(PetscPrintf(s->comm, "note: %s does nothing, for output.fields is false\n", NodeWhere(key)));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode ReadGeneral_Private(Scene s)
 {
   SceneData *d = &s->data;
@@ -52,6 +80,7 @@ static PetscErrorCode ReadGeneral_Private(Scene s)
                   NodeWhere(NodeFind(NodeFind(s->root, "adapt"), "history")));
   if (NodeFind(s->root, "adapt") && !NodeFind(NodeFind(s->root, "adapt"), "tolerance"))
     PetscCall(PetscPrintf(s->comm, "note: %s has no tolerance: nothing is adapted, and its other keys do nothing\n", NodeWhere(NodeFind(s->root, "adapt"))));
+  PetscCall(CheckInert_Private(s));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -243,17 +272,35 @@ static PetscErrorCode ReadRotation_Private(Scene s, const SceneNode *rotation, B
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* An amplitude multiplies what stands beside it. */
+static PetscErrorCode CheckAmplitude_Private(const SceneNode *node, size_t num, const char *const keys[])
+{
+  const SceneNode *amplitude = NodeFind(node, "amplitude");
+  char             list[256] = "";
+
+  PetscFunctionBegin;
+  for (size_t i = 0; i < num && amplitude; ++i) {
+    if (NodeFind(node, keys[i])) PetscFunctionReturn(PETSC_SUCCESS);
+    TextAppend(sizeof(list), list, i ? ", " : "");
+    TextAppend(sizeof(list), list, keys[i]);
+  }
+  PetscCheckInput(!amplitude, "%s has nothing to multiply; it needs one of %s", NodeWhere(amplitude), list);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode ReadBody_Private(Scene s, SceneNode *node, BodyEntry *b)
 {
-  const char *names[64];
-  PetscInt    num = s->data.num_materials;
-  PetscBool   rigid;
+  static const char *const driven[] = {"motion", "load", "force"};
+  const char              *names[64];
+  PetscInt                 num = s->data.num_materials;
+  PetscBool                rigid;
 
   PetscFunctionBegin;
   b->node       = node;
   b->spec.order = s->order;
   PetscCall(PetscStrncpy(b->spec.name, node->key, MORTISE_NAME));
   PetscCall(OptionsRead("body", node, s->data.mesh.dim, b));
+  PetscCall(CheckAmplitude_Private(node, PETSC_STATIC_ARRAY_LENGTH(driven), driven));
   for (PetscInt i = 0; i < num; ++i) {
     if (i < 64) names[i] = s->material[i].spec.name;
     if (strcmp(s->material[i].spec.name, b->material)) continue;
@@ -286,14 +333,16 @@ static PetscErrorCode ReadBody_Private(Scene s, SceneNode *node, BodyEntry *b)
 
 static PetscErrorCode ReadBoundary_Private(Scene s, SceneNode *node, BoundaryEntry *b)
 {
-  const SceneNode *rotation = NodeFind(node, "rotation");
-  PetscBool        any      = PETSC_FALSE;
+  static const char *const driven[] = {"displacement", "rotation", "pressure", "volume", "advance", "traction"};
+  const SceneNode         *rotation = NodeFind(node, "rotation");
+  PetscBool                any      = PETSC_FALSE;
 
   PetscFunctionBegin;
   b->node       = node;
   b->spec.group = -1;
   PetscCall(PetscStrncpy(b->spec.name, node->key, MORTISE_NAME));
   PetscCall(OptionsRead("boundary", node, s->data.mesh.dim, b));
+  PetscCall(CheckAmplitude_Private(node, PETSC_STATIC_ARRAY_LENGTH(driven), driven));
   if (rotation) PetscCall(CheckRotation_Private(s, rotation, b->spec.rotation_angle, b->rotation_axis));
   b->spec.rotation      = rotation ? PETSC_TRUE : PETSC_FALSE;
   b->spec.rotation_axis = b->rotation_axis;
@@ -548,5 +597,7 @@ PetscErrorCode SceneRead(Scene s, int argc, char **argv)
   READ_SECTION(s, "refine", d->num_refines, s->refine, ReadRefine_Private);
   PetscCheckInput(s->num_bodies, "%s: there is no body; each physical group of the mesh needs a line under body: name: {material: ...}", s->root->origin);
   for (PetscInt i = 0; i < d->num_materials; ++i) PetscCheckInput(s->material[i].used, "%s is used by no body", NodeWhere(s->material[i].node));
+  for (PetscInt i = 0; i < s->num_points; ++i)
+    if (!s->point[i].used) PetscCall(PetscPrintf(s->comm, "note: %s does nothing, for no moment_about names it\n", NodeWhere(s->point[i].node)));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

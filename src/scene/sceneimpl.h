@@ -101,6 +101,7 @@ typedef struct {
 
 typedef struct {
   PetscReal  X[3];
+  PetscBool  used;
   SceneNode *node;
 } PointEntry;
 

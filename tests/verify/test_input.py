@@ -141,6 +141,12 @@ def test_good_on_two_ranks(check):
     (("load:", "adapt: {share: 1.5}\nload:"), ["adapt.share is 1.5", r"\[0,1\]"]),
     (("load:", "adapt: {aspect: 0.5}\nload:"), ["adapt.aspect is 0.5", r"\[1,1e6\]"]),
     (("load:", "adapt: {strategy: r}\nload:"), ["adapt.strategy is .r.", r"h\|p\|hp|h, p, hp"]),
+    (("load:", "adapt: {tolerance: 0.1, share: 0.2}\nload:"), ["adapt.share acts with adapt.anisotropic: true alone"]),
+    (("load:", "adapt: {tolerance: 0.1, aspect: 3, anisotropic: false}\nload:"), ["adapt.aspect acts with adapt.anisotropic: true alone"]),
+    (("load:", "adapt: {tolerance: 0.1, max_order: 3}\nload:"), ["adapt.max_order acts with adapt.strategy: p or hp alone"]),
+    (("load:", "adapt: {tolerance: 0.1, max_order: 3, strategy: p, anisotropic: true, share: 0.2, aspect: 3}\nload:"), None),
+    (("fix: xy", "fix: xy, amplitude: [0,0, 1,1]"), ["boundary.bottom.amplitude has nothing to multiply; it needs one of displacement, rotation"]),
+    (("upper: {", "upper: {amplitude: [0,0, 1,1], "), ["body.upper.amplitude has nothing to multiply; it needs one of motion, load, force"]),
     (("load:", "adapt: {max_order: 9}\nload:"), ["adapt.max_order is 9", r"\[1,8\]"]),
     (("order: 1\nbody:", "order: 3\nadapt: {strategy: hp, max_order: 2}\nbody:"), ["adapt.max_order is 2", "has order 3", "allowed: 3 to 8"]),
     (("load:", "adapt: {anisotropic: maybe}\nload:"), ["adapt.anisotropic is .maybe.", "true, false"]),
@@ -269,6 +275,16 @@ def test_a_pressure_that_moves_nothing(check, held, told):
     """Its reaction may be wanted."""
     result = check([("bottom: {fix: xy}", f"bottom: {{fix: xy}}\n  lower_top: {{{held}, pressure: 1}}")])
     assert result.returncode == 0 and ("boundary.lower_top.pressure moves nothing" in result.stdout) == told, result
+
+
+def test_keys_without_what_they_act_with(check):
+    """Left out on the command line for one run; told where the scene has both."""
+    scene = [("load:", "adapt: {tolerance: 0.1, max_order: 3, strategy: p, anisotropic: true, aspect: 3}\noutput: {quantities: energy_density, divide: 2}\nload:")]
+    result = check(scene, "-adapt_strategy", "h", "-adapt_anisotropic", "false", "-output_fields", "false")
+    assert result.returncode == 0 and "does nothing" not in result.stdout, result
+    result = check([("load:", "output: {fields: false, divide: 2}\npoint: {p: {x: 1}, q: {x: 1}}\nload:"), ("fix: xy", "fix: xy, moment_about: q")])
+    assert result.returncode == 0 and "output.divide does nothing, for output.fields is false" in result.stdout, result
+    assert "point.p does nothing, for no moment_about names it" in result.stdout and "point.q does" not in result.stdout, result
 
 
 def test_many_long_names(check):
