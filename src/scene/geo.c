@@ -136,27 +136,28 @@ static PetscBool Acts_Private(Geo g, const char *signs)
   return (PetscBool)(token == GEO_TEXT || token == GEO_LONG || IsSign_Private(&g, token, signs));
 }
 
-/* Behind Printf or Error: its arguments in parentheses. What it does that it should not, or NULL. */
-static const char *Redirects_Private(Geo g)
-{
-  int open = 0;
-
-  do {
-    const GeoToken token = Next_Private(&g);
-    if (token == GEO_END) return NULL;
-    if (token == GEO_LONG) return "has a string of more than 1023 characters";
-    open += IsSign_Private(&g, token, "(") - IsSign_Private(&g, token, ")");
-  } while (open > 0);
-  Skip_Private(&g);
-  return *g.at == '>' ? "writes a file" : NULL;
-}
-
 static PetscBool IsOneOf_Private(const char *word, size_t num, const char *const words[])
 {
   for (size_t i = 0; i < num; ++i) {
     if (!strcmp(word, words[i])) return PETSC_TRUE;
   }
   return PETSC_FALSE;
+}
+
+/* Behind Printf or Error: its arguments in parentheses, in which the statement does not end and no other begins. What it does that it should not, or NULL. */
+static const char *Redirects_Private(Geo g)
+{
+  int open = 0;
+
+  do {
+    const GeoToken token = Next_Private(&g);
+    if (token == GEO_END || IsSign_Private(&g, token, ";")) return NULL;
+    if (token == GEO_WORD && IsOneOf_Private(g.word, PETSC_STATIC_ARRAY_LENGTH(Printing), Printing)) return NULL;
+    if (token == GEO_LONG) return "has a string of more than 1023 characters";
+    open += IsSign_Private(&g, token, "(") - IsSign_Private(&g, token, ")");
+  } while (open > 0);
+  Skip_Private(&g);
+  return *g.at == '>' ? "writes a file" : NULL;
 }
 
 /* The text of a file. A pipe would be waited for, and files of the system that have no size tell each program something else. */

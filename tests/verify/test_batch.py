@@ -385,6 +385,12 @@ def test_a_geo_is_looked_through(run, tmp_path, line, words):
         assert "mesh.trust" not in result.stderr, result
 
 
+def test_a_geo_is_looked_through_in_bounded_time(run, tmp_path):
+    """Each statement is read to its end, not to that of the file."""
+    (tmp_path / "s.geo").write_text(100000 * "Printf(" + "\n")
+    assert "mesh.trust" not in run("s.yml", "-check", text=block(tmp_path, mesh={"file": "s.geo"})).stderr
+
+
 def test_options_beside_a_geo(run, tmp_path):
     (tmp_path / "s.geo").write_text("Point(1) = {0, 0, 0};\n")
     (tmp_path / "s.geo.opt").write_text('SystemCall "touch here";\n')  # gmsh reads it unasked
