@@ -3,7 +3,7 @@
    the tangent of a body that no support holds may be singular. */
 #include "solveimpl.h"
 
-#define LEAST 1e-2 /* least part of it: round-off of factors is far below */
+#define LEAST 1e-6 /* least part of it: round-off of factors is far below */
 
 static PetscErrorCode Linearise_Private(Solver s, const Iterate *it, const Form *last, PetscBool always, PetscBool *acts)
 {
