@@ -26,7 +26,7 @@ def test_scenes():
     runs = [(scene["name"], variant) for scene, variant, _ in ALL]
     assert len(scenes) >= 40 and len(set(runs)) == len(runs)
     assert {scene["class"] for scene in scenes.values()} == {"edges", "corners", "overlap", "half models", "soft and stiff", "rigid nonmortar", "1:8", "snaps", "press fits", "billets", "forming",
-                                                            "bonded edges", "buckling", "folding", "conforming", "friction", "seals", "tied", "rigid under loads"}
+                                                            "bonded edges", "buckling", "folding", "conforming", "friction", "seals", "tied", "rigid under loads", "held by contact alone"}
     for scene, _, options in ALL:
         assert {figure[0] for figure in scene["figures"]} >= set(scene.get("friction", [])), scene["name"]
         assert scene["figures"] and scene["source"] and set(scene.get("quick", [])) <= set(scene["variants"]), scene["name"]
