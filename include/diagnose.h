@@ -88,12 +88,10 @@ PetscErrorCode ThroughFind(Problem, const PetscReal from[], const State *, Petsc
 /* adrift.c: axes[body], as bits: those along which no support holds a body, nor the bodies that contact presses it on, nor those that hold them. At the state
    evaluated last; scale: the largest ProblemStatus.scale of the path, against which forces are round-off. Collective. */
 PetscErrorCode AdriftFind(Problem, PetscReal scale, PetscInt axes[]);
-/* Is there a body that supports leave free along an axis? Not collective. */
-PetscErrorCode AdriftMay(Problem, PetscBool *may);
 
 /* thrown.c: the first body that nothing holds along an axis and that moved along it, from displacements `from` (local array) to the state, farther than its own
-   size and what is held moved at most; -1: there is none. Collective; views of contact are then those of the state. */
-PetscErrorCode ThrownFind(Problem, const PetscReal from[], const State *, PetscInt *body);
+   size and what is held moved at most; -1: there is none. At the state that was evaluated last; scale: its ProblemStatus.scale. Collective. */
+PetscErrorCode ThrownFind(Problem, const PetscReal from[], const State *, PetscReal scale, PetscInt *body);
 
 /* Cells of deformable bodies with det F <= 0 at a corner (of the section, where it is plane or axisymmetric). */
 typedef struct {

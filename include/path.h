@@ -31,8 +31,9 @@ typedef struct {
 typedef struct {
   RecoveryMode mode; /* off: it is not asked */
   PetscInt     num;  /* how often it was none */
-  /* from: displacements (local array) of the state that was set out from. *reason says why, else NULL. Collective. */
-  PetscErrorCode (*ask)(Problem, const PetscReal from[], const State *, const char **reason);
+  /* from: displacements (local array) of the state that was set out from; scale: of the forces that were found (ProblemStatus). *reason says why, else NULL.
+     Collective. */
+  PetscErrorCode (*ask)(Problem, const PetscReal from[], const State *, PetscReal scale, const char **reason);
 } Refusal;
 
 /* What a run knows of its path, whatever mesh it is on: what solves took, what recoveries did. */
@@ -98,8 +99,8 @@ PetscErrorCode PathAttempt(Path *, const PathLoop *, PetscReal to, SolverReport 
 PetscErrorCode PathFrom(const Path *, PetscReal **from);
 /* A solve that set out from there has found level->state at s = `to`: what the metric notes; refused: report->converged false, report->reason. Collective. */
 PetscErrorCode PathFound(Path *, const PathLoop *, const PetscReal from[], PetscReal to, SolverReport *);
-/* Ask all refusals of level->state that are not off; counted. Collective. */
-PetscErrorCode PathRefuse(Path *, const PetscReal from[], const char **reason);
+/* Ask all refusals of level->state, of which a solve reports, that are not off; counted. Collective. */
+PetscErrorCode PathRefuse(Path *, const PetscReal from[], const SolverReport *, const char **reason);
 /* What a solve took; equilibrium: what was found is one, not a step on the way to it. */
 void PathCount(Path *, const SolverReport *, PetscBool equilibrium);
 /* level->state := from, with its time and prescribed motion. Collective. */

@@ -169,9 +169,9 @@ PetscErrorCode AppStop(App *);
 PetscErrorCode AppResume(App *, Forest *coarse);
 
 /* watch.c. Path.refusal: states that no contact opposes though bodies lie inside each other, or went through each other, are no solutions. Collective. */
-PetscErrorCode AppRefuseInside(Problem, const PetscReal from[], const State *, const char **reason);
-PetscErrorCode AppRefuseThrough(Problem, const PetscReal from[], const State *, const char **reason);
-PetscErrorCode AppRefuseThrown(Problem, const PetscReal from[], const State *, const char **reason);
+PetscErrorCode AppRefuseInside(Problem, const PetscReal from[], const State *, PetscReal scale, const char **reason);
+PetscErrorCode AppRefuseThrough(Problem, const PetscReal from[], const State *, PetscReal scale, const char **reason);
+PetscErrorCode AppRefuseThrown(Problem, const PetscReal from[], const State *, PetscReal scale, const char **reason);
 /* After each accepted load step: does its state ask for a warning? Collective. */
 PetscErrorCode AppWatch(App *);
 /* Before the first load step: a warning of bodies that overlap where no pair is between them. Collective. */

@@ -90,7 +90,7 @@ static PetscErrorCode WatchAdrift_Private(App *app)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode AppRefuseInside(Problem problem, const PetscReal from[], const State *state, const char **reason)
+PetscErrorCode AppRefuseInside(Problem problem, const PetscReal from[], const State *state, PetscReal scale, const char **reason)
 {
   PetscInt pair, still;
 
@@ -100,7 +100,7 @@ PetscErrorCode AppRefuseInside(Problem problem, const PetscReal from[], const St
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode AppRefuseThrough(Problem problem, const PetscReal from[], const State *state, const char **reason)
+PetscErrorCode AppRefuseThrough(Problem problem, const PetscReal from[], const State *state, PetscReal scale, const char **reason)
 {
   PetscInt pair;
 
@@ -110,12 +110,12 @@ PetscErrorCode AppRefuseThrough(Problem problem, const PetscReal from[], const S
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode AppRefuseThrown(Problem problem, const PetscReal from[], const State *state, const char **reason)
+PetscErrorCode AppRefuseThrown(Problem problem, const PetscReal from[], const State *state, PetscReal scale, const char **reason)
 {
   PetscInt body;
 
   PetscFunctionBegin;
-  PetscCall(ThrownFind(problem, from, state, &body));
+  PetscCall(ThrownFind(problem, from, state, scale, &body));
   *reason = body < 0 ? NULL : "a body that nothing holds was thrown off";
   PetscFunctionReturn(PETSC_SUCCESS);
 }

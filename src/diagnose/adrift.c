@@ -56,19 +56,6 @@ static PetscErrorCode JoinPairs_Private(Problem problem, PetscInt num, PetscInt 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode AdriftMay(Problem problem, PetscBool *may)
-{
-  const PetscReal *hold;
-  const PetscInt  *group;
-
-  PetscFunctionBegin;
-  *may = PETSC_FALSE;
-  PetscCall(MechanicsGetHold(ProblemMechanics(problem), &hold, &group));
-  for (PetscInt b = 0; b < ProblemGetScene(problem)->mechanics.num_bodies; ++b)
-    if (MechanicsFreeAxes(ForestGetCoarse(ProblemForest(problem))->dim, hold + 9 * b)) *may = PETSC_TRUE;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode AdriftFind(Problem problem, PetscReal scale, PetscInt axes[])
 {
   const SceneData  *scene = ProblemGetScene(problem);

@@ -52,7 +52,7 @@ PetscErrorCode PathStabilise(Path *p, PetscBool *changed)
   PetscCall(PathFrom(p, &from));
   PetscCall(SolverStabilise(l->solver, &l->state, &report));
   PetscCall(PetscInfo(NULL, "unstable equilibrium: %s\n", report.converged ? "another was found" : report.reason));
-  if (report.converged) PetscCall(PathRefuse(p, from, &words));
+  if (report.converged) PetscCall(PathRefuse(p, from, &report, &words));
   *changed         = (PetscBool)(report.converged && report.unstable == 0 && !words);
   report.converged = *changed;
   PathCount(p, &report, PETSC_FALSE);

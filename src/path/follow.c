@@ -57,14 +57,14 @@ PetscErrorCode PathFrom(const Path *p, PetscReal **from)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode PathRefuse(Path *p, const PetscReal from[], const char **reason)
+PetscErrorCode PathRefuse(Path *p, const PetscReal from[], const SolverReport *report, const char **reason)
 {
   PetscFunctionBegin;
   *reason = NULL;
   for (PetscInt i = 0; i < PATH_REFUSALS && !*reason; ++i) {
     Refusal *r = &p->refusal[i];
     if (!r->ask || r->mode == RECOVERY_OFF) continue;
-    PetscCall(r->ask(p->level->problem, from, &p->level->state, reason));
+    PetscCall(r->ask(p->level->problem, from, &p->level->state, report->status.scale, reason));
     if (*reason) ++r->num;
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -76,7 +76,7 @@ PetscErrorCode PathFound(Path *p, const PathLoop *loop, const PetscReal from[], 
 
   PetscFunctionBegin;
   if (!report->converged) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(PathRefuse(p, from, &words));
+  PetscCall(PathRefuse(p, from, report, &words));
   if (words) {
     report->converged = PETSC_FALSE;
     report->reason    = words;

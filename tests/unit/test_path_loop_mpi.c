@@ -137,7 +137,7 @@ static void Recovers(void **state)
 }
 
 /* The first two that are found are none. */
-static PetscErrorCode RefuseTwo(Problem problem, const PetscReal from[], const State *state, const char **reason)
+static PetscErrorCode RefuseTwo(Problem problem, const PetscReal from[], const State *state, PetscReal scale, const char **reason)
 {
   *reason = num_asked < 3 ? "looked at and refused" : NULL;
   return PETSC_SUCCESS;

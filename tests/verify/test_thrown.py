@@ -19,8 +19,8 @@ def test_out_of_the_jaws(run):
 
 
 def test_ranks(run):
-    one, two = (run(*JAWS, ranks=ranks).summary for ranks in (1, 2))
-    assert one["thrown_off"] == two["thrown_off"] and one["energy"] == pytest.approx(two["energy"], rel=1e-8)
+    one, *more = (run(*JAWS, ranks=ranks).summary for ranks in (1, 2, 3))
+    for other in more: assert other["thrown_off"] == one["thrown_off"] and other["energy"] == pytest.approx(one["energy"], rel=1e-8)
 
 
 def test_pulled_away(run):
