@@ -15,12 +15,12 @@ PetscReal SolverTolerance_Private(const Solver s, const ProblemStatus *status)
 /* Norms are roots of sums of squares: of forces whose squares are no numbers they judge nothing. */
 static PetscErrorCode IsJudged_Private(Solver s, const Iterate *it, PetscBool *yes)
 {
-  const ProblemStatus *status = &s->report->status;
-  PetscReal            largest;
+  const ProblemStatus *status  = &s->report->status;
+  PetscReal            largest = 0; /* a norm of 0 may be one of squares that vanish */
 
   PetscFunctionBegin;
-  PetscCall(VecNorm(it->r, NORM_INFINITY, &largest));
-  *yes = (PetscBool)(!PetscIsInfOrNanReal(status->scale) && (largest == 0 || SolverTolerance_Private(s, status) >= PetscSqrtReal(DBL_MIN)));
+  if (SolverTolerance_Private(s, status) < PetscSqrtReal(DBL_MIN)) PetscCall(VecNorm(it->r, NORM_INFINITY, &largest));
+  *yes = (PetscBool)(!PetscIsInfOrNanReal(status->scale) && largest == 0);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
