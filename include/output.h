@@ -18,8 +18,8 @@ PetscErrorCode OutputForgetFields(MPI_Comm, const char *directory);
 /* Go on with the series in directory: `num` states, the last of a load step; those of later steps are dropped when the next state is written. No index: it
  * begins with the next state, whose number is num. An input error when the index lists other states up to this step. Collective. */
 PetscErrorCode WriterResume(MPI_Comm, const char *directory, PetscInt step, PetscInt num, Writer *);
-/* Is the file of that state there, and was it written to its end? Not collective. */
-PetscBool      WriterStateIsWhole(const char *directory, PetscInt number);
+/* Has the file of a state this attribute ("complete" is written last)? 1, 0, or -1: it cannot be opened. Not collective. */
+int            OutputStateHas(const char *path, const char *attribute);
 PetscErrorCode WriterNumStates(Writer, PetscInt *num); /* completed so far */
 PetscErrorCode WriterDestroy(Writer *);
 /* From now on the files tell units of fields (attribute unit of a data set; units of the file) and what the values of body, pair and side stand for

@@ -44,7 +44,7 @@ static PetscErrorCode TellLost_Private(App *app)
     else
       PetscCall(PetscStrncpy(name, Tables[table], sizeof(name)));
     PetscCall(PetscSNPrintf(path, sizeof(path), "%s/%s", directory, name));
-    if (table < 0 ? WriterStateIsWhole(directory, i) : app->load_steps == 0 || !access(path, F_OK)) continue;
+    if (table < 0 ? OutputStateHas(path, "complete") > 0 : app->load_steps == 0 || !access(path, F_OK)) continue;
     PetscCall(PetscStrncpy(lost[lost[0][0] != 0], lost[0][0] ? " and others" : name, sizeof(lost[0])));
   }
   PetscCallMPI(MPI_Bcast(lost, (PetscMPIInt)sizeof(lost), MPI_CHAR, 0, app->comm));

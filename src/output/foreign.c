@@ -31,15 +31,9 @@ PetscInt OutputStateNumber(const char *name)
 /* Is it one of our state files? One that was not closed cannot be opened: then the index beside it tells whose directory it is. */
 static PetscBool IsState_Private(const char *path, PetscBool series)
 {
-  hid_t  file;
-  htri_t ours;
+  const int ours = OutputStateHas(path, "load_time");
 
-  (void)H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
-  file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
-  if (file < 0) return series;
-  ours = H5Aexists(file, "load_time");
-  (void)H5Fclose(file);
-  return (PetscBool)(ours > 0);
+  return ours < 0 ? series : (PetscBool)ours;
 }
 
 /* Does the file begin like that, as far as it goes? */

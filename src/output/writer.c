@@ -136,19 +136,17 @@ static PetscErrorCode Load_Private(const char *path, char **text)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscBool WriterStateIsWhole(const char *directory, PetscInt number)
+int OutputStateHas(const char *path, const char *attribute)
 {
-  char   path[PETSC_MAX_PATH_LEN];
   hid_t  file;
-  htri_t whole;
+  htri_t has;
 
   (void)H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
-  (void)snprintf(path, sizeof(path), "%s/fields_%04d.h5", directory, (int)number);
   file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
-  if (file < 0) return PETSC_FALSE;
-  whole = H5Aexists(file, "complete");
+  if (file < 0) return -1;
+  has = H5Aexists(file, attribute);
   (void)H5Fclose(file);
-  return (PetscBool)(whole > 0);
+  return has > 0;
 }
 
 PetscErrorCode WriterResume(MPI_Comm comm, const char *directory, PetscInt step, PetscInt num, Writer *writer)
