@@ -160,11 +160,6 @@ static PetscBool Asked_Private(int argc, char **argv, const char *option)
   return PETSC_FALSE;
 }
 
-static PetscBool AsksHelp_Private(int argc, char **argv)
-{
-  return (PetscBool)(Asked_Private(argc, argv, "-help") || Asked_Private(argc, argv, "--help") || Asked_Private(argc, argv, "-h"));
-}
-
 /* Options with a first word of PETSc's that nothing asked for are most likely mistyped: say so. PetscFinalize asks for two more. */
 static PetscErrorCode UnusedOptions_Private(void)
 {
@@ -200,30 +195,25 @@ static PetscErrorCode Help_Private(void)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* What is told, or made, without a scene. */
-static PetscErrorCode Tell_Private(int argc, char **argv)
+static PetscErrorCode Main_Private(int argc, char **argv, int *status)
 {
+  const PetscBool make = (PetscBool)(argc > 1 && !strcmp(argv[1], "new")), list = Asked_Private(argc, argv, "-list");
+  const PetscBool help    = (PetscBool)(Asked_Private(argc, argv, "-help") || Asked_Private(argc, argv, "--help") || Asked_Private(argc, argv, "-h"));
+  const PetscBool version = Asked_Private(argc, argv, "--version");
+
   PetscFunctionBegin;
-  StopRelease();
-  if (!strcmp(argv[1], "new"))
+  PetscCall(StageRegister());
+  if (make || help || version || list) StopRelease();
+  if (make)
     PetscCall(AppNew(PETSC_COMM_WORLD, argc - 2, argv + 2));
   else if (argc == 3 && !strcmp(argv[1], "-help") && !strcmp(argv[2], "json"))
     PetscCall(AppDescribe(PETSC_COMM_WORLD));
-  else if (Asked_Private(argc, argv, "--version") && !AsksHelp_Private(argc, argv))
-    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "mortise %s\n", MORTISE_VERSION));
-  else if (!AsksHelp_Private(argc, argv))
-    PetscCall(ScenePrintList(PETSC_COMM_WORLD));
-  else
+  else if (help)
     PetscCall(Help_Private());
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode Main_Private(int argc, char **argv, int *status)
-{
-  PetscFunctionBegin;
-  PetscCall(StageRegister());
-  if ((argc > 1 && !strcmp(argv[1], "new")) || AsksHelp_Private(argc, argv) || Asked_Private(argc, argv, "--version") || Asked_Private(argc, argv, "-list"))
-    PetscCall(Tell_Private(argc, argv));
+  else if (version)
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "mortise %s\n", MORTISE_VERSION));
+  else if (list)
+    PetscCall(ScenePrintList(PETSC_COMM_WORLD));
   else {
     PetscCall(Solve_Private(argc, argv, status));
     PetscCall(UnusedOptions_Private());
