@@ -57,6 +57,7 @@ PetscErrorCode ErrorForeseen(PetscErrorCode code, PetscBool *met);
    the same on every rank. Collective. */
 PetscErrorCode WarningAdd(MPI_Comm, const char *format, ...) PETSC_ATTRIBUTE_FORMAT(2, 3);
 const char    *WarningText(PetscInt i); /* the i-th so far, from 0; NULL: there are no more */
+void           WarningForget(void);     /* those so far are of a run that begins anew */
 
 /* Between the two a signal that a library raises over the numbers of a file (SIGSEGV, SIGABRT, …) ends the process with exit status 1 and this sentence
    (base/guard.c). No nesting. */

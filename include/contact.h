@@ -54,6 +54,8 @@ typedef struct {
   PetscInt      nonmortar, mortar; /* boundary groups */
   PetscBool     self;              /* both are one group: a surface that may meet itself */
   PetscBool     exchanged;         /* the scene names them the other way round, figures are of the sides as the scene names them */
+  PetscBool     given;             /* they are not to be exchanged */
+  PetscBool     cornered;          /* the nonmortar side was chosen for its corners; by stiffness it would be the other one */
   ContactLaw    law;               /* what its multipliers fulfil (interface/law/) */
   PetscReal     penalty;           /* law penalty: stiffness, pressure over overlap */
   Expression    friction;          /* law coulomb: its coefficient, of t */

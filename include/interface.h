@@ -239,6 +239,9 @@ PetscErrorCode InterfaceFindWide(Interface, uint64_t *pairs);
    the change of the multipliers there is taken as one of forces. changed: there was one. Collective. */
 void           InterfaceKeepWeights(Interface);
 PetscErrorCode InterfaceCarryForces(Interface, Vec dx, PetscBool *changed);
+/* corner.c: pairs, by ContactSpec.pair, of which a sharp corner of the mortar side presses within a facet of the nonmortar side, and nothing beside it does:
+   the other side is the better one to carry the multipliers. In the plane. */
+PetscErrorCode InterfaceFindCorners(Interface, uint64_t *pairs);
 /* Pairs that have borne nothing yet. */
 PetscErrorCode InterfaceFindUntouched(Interface, uint64_t *pairs);
 /* At each iterate of a solve: notes in which facets the mortar side ends, and which that changed for while they bore. begin: what was noted is forgotten, as at

@@ -44,6 +44,7 @@ typedef struct {
   PetscInt         descent_iterations;               /* tangents of descents, besides Newton's */
   PetscInt         unstable, judged;                 /* accepted though unstable; equilibria found of which it is known whether they are stable */
   PetscInt         stabilised;                       /* that took the place of unstable ones */
+  PetscInt         begun_anew;                       /* runs before this one that went on with other roles of contact pairs */
   PetscInt         folded_left;                      /* cells that were to be split and stayed as they were, for they are folded at a corner */
   PetscBool        unstable_now;                     /* the last equilibrium found is unstable */
   PetscInt         modifiers[SOLVER_MOST_MODIFIERS]; /* interventions of Newton's modifiers */

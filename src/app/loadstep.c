@@ -41,9 +41,13 @@ static PetscErrorCode LoadStep_Private(App *app, PetscBool *ok)
   if (!report.converged) PetscCall(AppCoarsen(app, &loop, &report));
   *(app->arc_first > 0 ? &app->arc : &app->dt) = loop.piece;
   *ok                                          = report.converged;
+  if (!app->path.stopped) PetscCall(AppCheckRoles(app));
+  if (app->anew) PetscFunctionReturn(PETSC_SUCCESS);
+  const PetscInt missed = app->num_missed;
   if (*ok) PetscCall(AppAdapt(app));
   if (app->path.stopped) *ok = PETSC_FALSE;
-  if (*ok || app->path.stopped) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!app->path.stopped && (!*ok || (app->num_missed > missed && !strcmp(app->adapt_stop, NONE_FINER)))) PetscCall(AppReturnRoles(app));
+  if (app->anew || *ok || app->path.stopped) PetscFunctionReturn(PETSC_SUCCESS);
   app->failure = report.reason;
   if (app->path.limit_point)
     app->failure = InterfaceSlips(ProblemInterface(app->level.problem))
@@ -128,6 +132,7 @@ PetscErrorCode AppRun(App *app)
       break;
     }
     PetscCall(LoadStep_Private(app, &ok));
+    if (app->anew) PetscFunctionReturn(PETSC_SUCCESS);
     if (ok) PetscCall(Accept_Private(app));
   }
   if (app->path.stopped)

@@ -113,16 +113,21 @@ static PetscErrorCode CheckArguments_Private(MPI_Comm comm, int argc, char **arg
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode Solve_Private(int argc, char **argv, int *status)
+/* What a run that begins anew with other roles of its pairs has from the one before. */
+typedef struct {
+  PetscBool      anew;
+  PetscLogDouble start;
+  uint64_t       exchanged, settled;
+  PetscInt       newton_iterations, factorisations, times;
+} Begun;
+
+/* One run, from the scene to the summary; anew: it ended where another one is to begin. */
+static PetscErrorCode Run_Private(int argc, char **argv, Begun *begun, int *status)
 {
-  App    app = {.comm = PETSC_COMM_WORLD};
+  App    app = {.comm = PETSC_COMM_WORLD, .start = begun->start, .exchanged = begun->exchanged, .settled = begun->settled};
   Forest forest;
 
   PetscFunctionBegin;
-  PetscCall(PetscTime(&app.start));
-  PetscCall(StopWatch(0));
-  PetscCheckInput(argc > 1, "no scene was named; say mortise SCENE.yml, or mortise -help");
-  PetscCall(CheckArguments_Private(app.comm, argc, argv));
   PetscCall(SceneCreate(app.comm, argc, argv, &app.scene));
   PetscCall(SceneGetData(app.scene, &app.data));
   app.path.refusal[PATH_INSIDE].ask  = AppRefuseInside;
@@ -131,24 +136,52 @@ static PetscErrorCode Solve_Private(int argc, char **argv, int *status)
   app.path.level                     = &app.level;
   app.path.data                      = app.data;
   PetscCall(AppOptions(&app));
+  if (begun->anew) app.restart[0] = 0;
   PetscCall(SolverCheckOptions());
   PetscCall(PathOptions(&app.path));
   PetscCall(AppCheckOptions(app.scene));
   PetscCall(AppCheckViewers(&app));
   PetscCall(StageBegin(STAGE_MESH));
+  PetscCall(AppReadRoles(&app));
   PetscCall(SceneSetUp(app.scene, &forest));
   PetscCall(StageEnd(STAGE_MESH));
   PetscCall(Prepare_Private(&app, &forest));
+  app.path.newton_iterations += begun->newton_iterations;
+  app.path.factorisations += begun->factorisations;
+  app.path.begun_anew += begun->times;
   if (SceneCheckOnly(app.scene))
     PetscCall(View_Private(&app));
   else {
     PetscCall(Open_Private(&app));
     PetscCall(AppRun(&app));
-    PetscCall(Summarise_Private(&app));
+    if (!app.anew) PetscCall(Summarise_Private(&app));
   }
   PetscCall(Close_Private(&app));
   PetscCall(SceneDestroy(&app.scene));
   *status = app.failure ? 2 : app.path.stopped ? 3 : app.num_missed ? 2 : 0;
+  *begun  = (Begun){.anew              = app.anew,
+                    .start             = app.start,
+                    .exchanged         = app.exchanged,
+                    .settled           = app.settled,
+                    .newton_iterations = app.path.newton_iterations,
+                    .factorisations    = app.path.factorisations,
+                    .times             = app.path.begun_anew + 1};
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Solve_Private(int argc, char **argv, int *status)
+{
+  Begun begun = {0};
+
+  PetscFunctionBegin;
+  PetscCall(PetscTime(&begun.start));
+  PetscCall(StopWatch(0));
+  PetscCheckInput(argc > 1, "no scene was named; say mortise SCENE.yml, or mortise -help");
+  PetscCall(CheckArguments_Private(PETSC_COMM_WORLD, argc, argv));
+  do {
+    PetscCall(Run_Private(argc, argv, &begun, status));
+    if (begun.anew) WarningForget();
+  } while (begun.anew);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -25,6 +25,7 @@ static const struct {
     {"thrown", offsetof(App, path.refusal[PATH_THROWN].num)},
     {"rolled", offsetof(App, path.refusal[PATH_ROLLING].num)},
     {"stabilised", offsetof(App, path.stabilised)},
+    {"begun_anew", offsetof(App, path.begun_anew)},
     {"folded_left", offsetof(App, path.folded_left)},
     {"descent_iterations", offsetof(App, path.descent_iterations)},
     {"missed", offsetof(App, num_missed)},
@@ -206,6 +207,9 @@ PetscErrorCode AppSnapshot(App *app)
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, seconds, 1 + NUM_STAGES, MPIU_REAL, MPI_MAX, app->comm));
   if (app->writer) PetscCall(WriterNumStates(app->writer, &states));
   PetscCall(Numbers_Private(app, &n));
+  PetscReal exchanged = (PetscReal)app->exchanged, settled = (PetscReal)app->settled;
+  PetscCall(Number_Private(&n, "", -1, "exchanged", NULL, &exchanged));
+  PetscCall(Number_Private(&n, "", -1, "settled", NULL, &settled));
   PetscCall(Number_Private(&n, "", -1, "states", &states, NULL));
   PetscCall(Number_Private(&n, "", -1, "seconds", NULL, &seconds[NUM_STAGES]));
   for (PetscInt s = 0; s < NUM_STAGES; ++s) PetscCall(Number_Private(&n, "seconds.", -1, StageNames[s], NULL, &seconds[s]));
@@ -312,13 +316,12 @@ PetscErrorCode AppKeepLast(App *app)
 
 /* ---- going on --------------------------------------------------------------------------------------------------------------------- */
 
-/* Read the checkpoint to go on from and check it against scene and coarse mesh. Collective. */
-static PetscErrorCode Read_Private(App *app, Forest coarse)
+/* Check the checkpoint to go on from against scene and coarse mesh. Collective. */
+static PetscErrorCode CheckCheckpoint_Private(App *app, Forest coarse)
 {
   PetscReal t;
 
   PetscFunctionBegin;
-  PetscCall(CheckpointRead(app->comm, app->restart, &app->snapshot));
   PetscCall(CheckpointCheck(app->snapshot, app->data, coarse));
   PetscCall(CheckpointGetNumber(app->snapshot, "t", &t));
   PetscCheckInput(!PetscIsInfOrNanReal(t), "-restart %s: it stands at t = %g", app->restart, (double)t);
@@ -349,7 +352,7 @@ PetscErrorCode AppResume(App *app, Forest *coarse)
   PetscReal       value;
 
   PetscFunctionBegin;
-  PetscCall(Read_Private(app, *coarse));
+  PetscCall(CheckCheckpoint_Private(app, *coarse));
   PetscCall(Level_Private(app, app->snapshot, *coarse, &app->level));
   PetscCall(ForestDestroy(coarse));
   PetscCall(GetLargest_Private(app));

@@ -66,7 +66,7 @@ PetscErrorCode StopWatch(PetscReal seconds)
   struct sigaction action = {.sa_handler = Note_Private};
 
   PetscFunctionBegin;
-  PetscCall(PetscTime(&stop_start));
+  if (!stop_watched || stop_seconds == 0) PetscCall(PetscTime(&stop_start));
   stop_seconds = seconds;
   stop_watched = PETSC_TRUE;
   sigemptyset(&action.sa_mask);

@@ -25,6 +25,11 @@ PetscErrorCode WarningAdd(MPI_Comm comm, const char *format, ...)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+void WarningForget(void)
+{
+  num_warnings = 0;
+}
+
 const char *WarningText(PetscInt i)
 {
   return i < num_warnings ? warning[i] : NULL;

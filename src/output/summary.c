@@ -236,6 +236,7 @@ static void AddRecoveries_Private(cJSON *root, const Path *path)
   AddNumber_Private(root, "refused_solutions", (PetscReal)path->refusal[PATH_INSIDE].num);
   AddNumber_Private(root, "passed_through", (PetscReal)path->refusal[PATH_THROUGH].num);
   AddNumber_Private(root, "thrown_off", (PetscReal)path->refusal[PATH_THROWN].num);
+  AddNumber_Private(root, "begun_anew", (PetscReal)path->begun_anew);
   AddNumber_Private(root, "rolled_too_far", (PetscReal)path->refusal[PATH_ROLLING].num);
   AddNumber_Private(root, "stabilised", (PetscReal)path->stabilised);
   AddNumber_Private(root, "folded_left", (PetscReal)path->folded_left);

@@ -245,7 +245,7 @@ static PetscReal Stiffness_Private(Scene s, const Facets *f, PetscInt group)
    the corner's facets are longer than all of the other side: what lies between its nodes is held by nothing. Where both sides have corners or neither has, the
    softer one: on a stiffer side the constraints are as coarse as its facets while the other side deforms between its nodes; on a rigid one nothing of its own
    makes each of them felt. */
-static PetscErrorCode Exchange_Private(Scene s, const Facets *f, const ContactEntry *c, const PetscReal stiffness[2], const char **why)
+static PetscErrorCode Exchange_Private(Scene s, const Facets *f, const ContactEntry *c, const PetscReal stiffness[2], const char **why, PetscBool *cornered)
 {
   PetscReal corner[2], rounded[2], longest[2];
 
@@ -261,6 +261,7 @@ static PetscErrorCode Exchange_Private(Scene s, const Facets *f, const ContactEn
     *why = own ? NULL : "has no corner, the other side has,";
   else if (!own && own_round != other_round) /* a sharp one comes first */
     *why = own_round ? NULL : "has no edge rounded within a facet of the other side, which has,";
+  *cornered = (PetscBool)((*why != NULL) != (stiffness[0] > stiffness[1]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -274,7 +275,12 @@ static PetscErrorCode Roles_Private(Scene s, const Facets *f, ContactEntry *c)
   PetscFunctionBegin;
   PetscCheckInput(!rigid[0] || !rigid[1], "%s: '%s' and '%s' are both sides of rigid bodies; one side of a pair must be of a body that deforms",
                   NodeWhere(c->node), c->nonmortar, c->mortar);
-  if (c->roles != ROLES_GIVEN) PetscCall(Exchange_Private(s, f, c, stiffness, &why));
+  if (c->roles != ROLES_GIVEN) PetscCall(Exchange_Private(s, f, c, stiffness, &why, &c->spec.cornered));
+  c->spec.given = (PetscBool)(c->roles == ROLES_GIVEN);
+  if (s->exchange >> (c - s->contact) & 1) {
+    c->spec.cornered = (PetscBool)!c->spec.cornered;
+    why              = why ? NULL : c->spec.cornered ? "has no corner that presses, the other side has," : "is the stiffer one";
+  }
   if (!why) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscPrintf(s->comm, "note: %s: '%s' %s and becomes the mortar side, '%s' the nonmortar side\n", NodeWhere(c->node), c->nonmortar, why, c->mortar));
   c->spec.exchanged = PETSC_TRUE;

@@ -196,6 +196,11 @@ PetscErrorCode SceneGetData(Scene s, const SceneData **data)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+void SceneExchange(Scene s, uint64_t pairs)
+{
+  s->exchange = pairs;
+}
+
 PetscBool SceneCheckOnly(Scene s)
 {
   return s->check;

@@ -116,6 +116,7 @@ struct _p_Scene {
   PetscInt   mesh_order, order;
   PetscBool  trust; /* mesh.trust */
   PetscBool  setup;
+  uint64_t   exchange;                      /* pairs, by number: SceneExchange */
   PetscBool  subdivided;                    /* gmsh made hexahedra out of tetrahedra */
   char       directory[PETSC_MAX_PATH_LEN]; /* of the scene file, with '/' at its end */
   char       temporary[PETSC_MAX_PATH_LEN]; /* directory of the generated mesh, "" when none; rank 0 removes it */

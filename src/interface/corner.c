@@ -1,0 +1,158 @@
+/* Sharp corners of the mortar side that press within a facet of the nonmortar side, in the plane. Gaps to both sides of such a corner open away from it and are
+   weighted with functions that are fixed to the facet, so that the corner rides over bumps whose slope is that of the gaps, at any size of facets. The side of
+   the corner has a node there, and is the better one to carry the multipliers (theory, 5, roles). */
+#include "interfaceimpl.h"
+
+#define ENDS 2 /* of the mortar facets at a corner: that of the facet before it, and of the one after */
+
+/* A corner, by what this rank sees of it: nonmortar facet that faces either end and how the mortar facet slants to it (sine of the angle), -1: it faces
+   nothing; is it inside or does that facet press, and does one beside it? */
+typedef struct {
+  PetscReal facet[ENDS], slant[ENDS], presses, beside;
+} Seen;
+
+/* The facets of an outline that end and begin at each of its corners; -1: there is none. */
+static void Beside_Private(const Surface *s, PetscInt before[], PetscInt after[])
+{
+  for (PetscInt n = 0; n < s->num_nodes; ++n) before[n] = after[n] = -1;
+  for (PetscInt f = 0; f < s->num_facets; ++f) {
+    after[s->facets[2 * f]]      = f;
+    before[s->facets[2 * f + 1]] = f;
+  }
+}
+
+/* sine[2] of the angle from facet a of one outline to facet b of another one, and cosine */
+static void Angle_Private(const PetscReal a[3], const PetscReal b[3], PetscReal *cosine, PetscReal *sine)
+{
+  const PetscReal size = PetscSqrtReal(Dot3(a, a) * Dot3(b, b));
+
+  *cosine = Dot3(a, b) / size;
+  *sine   = (a[0] * b[1] - a[1] * b[0]) / size;
+}
+
+/* Convex, by more than 40 degrees at the reference positions. */
+static PetscBool IsCorner_Private(const Surface *s, PetscInt before, PetscInt after)
+{
+  PetscReal a[3], b[3], cosine, sine;
+
+  if (before < 0 || after < 0) return PETSC_FALSE;
+  ContactFacetVector(2, s->X, s->facets + 2 * before, a);
+  ContactFacetVector(2, s->X, s->facets + 2 * after, b);
+  Angle_Private(a, b, &cosine, &sine);
+  return (PetscBool)(sine > 0 && cosine < CONTACT_SHARP);
+}
+
+/* Does a node of facet f press, but for those that it shares with facet `but` (-1: none)? */
+static PetscBool Presses_Private(const Contact *c, PetscInt f, PetscInt but)
+{
+  const Surface  *s = &c->side[0];
+  const PetscInt *node, *other = NULL, num = SurfaceNodes_Private(s, f, &node), others = but < 0 ? 0 : SurfaceNodes_Private(s, but, &other);
+
+  for (PetscInt k = 0; k < num; ++k) {
+    PetscBool shared = PETSC_FALSE;
+    for (PetscInt i = 0; i < others; ++i) shared = (PetscBool)(shared || other[i] == node[k]);
+    if (!shared && c->has_multiplier[node[k]] && c->valued[node[k]] && c->active[node[k]]) return PETSC_TRUE;
+  }
+  return PETSC_FALSE;
+}
+
+/* Is the corner inside the other body? Where it is a little within a facet, no mean of gaps may be closed yet. */
+static PetscBool IsInside_Private(const Contact *c, const ContactSegment *e, PetscInt end, const PetscReal N[3])
+{
+  const Surface  *s = &c->side[0], *m = &c->side[1];
+  const PetscInt *node, num = SurfaceNodes_Private(s, e->facet, &node), corner = m->facets[2 * e->mortar_facet + (e->eta[end][0] > 0)];
+  PetscReal       shape[SURFACE_MOST_NODES], gap = 0;
+
+  SurfaceShape(2, s->order[e->facet], e->xi[end], shape, NULL);
+  for (PetscInt d = 0; d < 2; ++d) {
+    PetscReal x = 0;
+    for (PetscInt k = 0; k < num; ++k) x += shape[k] * s->x[2 * node[k] + d];
+    gap += N[d] * (m->x[2 * corner + d] - x);
+  }
+  return (PetscBool)(gap < -CONTACT_ROUND * Dot3(N, N));
+}
+
+/* One end of a segment lies at a corner. */
+static void Look_Private(const Contact *c, const ContactSegment *e, PetscInt at, const PetscInt before[], const PetscInt after[], Seen *seen)
+{
+  const Surface *s   = &c->side[0];
+  const PetscInt end = e->eta[at][0] > 0 ? 0 : 1; /* the facet before the corner ends there */
+  PetscReal      N[3], M[3], cosine, sine;
+
+  ContactFacetVector(2, s->x, s->facets + 2 * e->facet, N);
+  ContactFacetVector(2, c->side[1].x, c->side[1].facets + 2 * e->mortar_facet, M);
+  Angle_Private(N, M, &cosine, &sine);
+  seen->facet[end] = (PetscReal)e->facet;
+  seen->slant[end] = PetscAbsReal(sine);
+  if (IsInside_Private(c, e, at, N) || Presses_Private(c, e->facet, -1)) seen->presses = 1;
+  for (PetscInt k = 0; k < 2; ++k) {
+    const PetscInt node = s->facets[2 * e->facet + k], g = k ? after[node] : before[node];
+    if (g >= 0 && Presses_Private(c, g, e->facet)) seen->beside = 1;
+  }
+}
+
+/* What the segments of this rank's facets tell of the corners, seen[corner[mortar node]]. */
+static PetscErrorCode Segments_Private(const Contact *c, const PetscInt corner[], const PetscInt before[], const PetscInt after[], Seen seen[])
+{
+  const ContactSegment *e;
+  PetscInt              num;
+
+  PetscFunctionBegin;
+  ContactPairGetSegments(c->pair, &num, &e);
+  for (PetscInt i = 0; i < num; ++i)
+    for (PetscInt k = 0; k < 2; ++k) {
+      const PetscReal eta  = e[i].eta[k][0];
+      const PetscInt  node = c->side[1].facets[2 * e[i].mortar_facet + (eta > 0)];
+      if (PetscAbsReal(eta) < 1 - CONTACT_ROUND || corner[node] < 0) continue;
+      if (PetscAbsReal(e[i].xi[k][0]) > 1 - CONTACT_ROUND) continue; /* beside a node, which holds it */
+      Look_Private(c, &e[i], k, before, after, &seen[corner[node]]);
+    }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The corner lies within one facet, which presses as no facet beside it does, and both its faces turn away from that: what does not face it is upright. */
+static PetscBool IsAlone_Private(const Seen *s)
+{
+  if (s->presses <= 0 || s->beside > 0) return PETSC_FALSE;
+  if (s->facet[0] >= 0 && s->facet[1] >= 0 && s->facet[0] != s->facet[1]) return PETSC_FALSE;
+  for (PetscInt k = 0; k < ENDS; ++k)
+    if (s->facet[k] >= 0 && s->slant[k] <= CONTACT_SLIVER) return PETSC_FALSE;
+  return PETSC_TRUE;
+}
+
+/* The parts of one pair, which have the same sides. */
+static PetscErrorCode Pair_Private(Interface p, PetscInt num, const Contact part[], PetscBool *yes)
+{
+  const Surface *s = &part[0].side[0], *m = &part[0].side[1];
+  PetscInt      *corner, *before[2], *after[2], corners = 0;
+  Seen          *seen;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc5(m->num_nodes, &corner, s->num_nodes, &before[0], s->num_nodes, &after[0], m->num_nodes, &before[1], m->num_nodes, &after[1]));
+  for (PetscInt k = 0; k < 2; ++k) Beside_Private(&part[0].side[k], before[k], after[k]);
+  for (PetscInt n = 0; n < m->num_nodes; ++n) corner[n] = IsCorner_Private(m, before[1][n], after[1][n]) ? corners++ : -1;
+  PetscCall(PetscMalloc1(corners, &seen));
+  for (PetscInt k = 0; k < corners; ++k) seen[k] = (Seen){.facet = {-1, -1}};
+  for (PetscInt i = 0; i < num && corners > 0; ++i) PetscCall(Segments_Private(&part[i], corner, before[0], after[0], seen));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, seen, (PetscMPIInt)(sizeof(Seen) / sizeof(PetscReal)) * (PetscMPIInt)corners, MPIU_REAL, MPI_MAX, p->comm));
+  *yes = PETSC_FALSE;
+  for (PetscInt k = 0; k < corners; ++k) *yes = (PetscBool)(*yes || IsAlone_Private(&seen[k]));
+  PetscCall(PetscFree(seen));
+  PetscCall(PetscFree5(corner, before[0], after[0], before[1], after[1]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode InterfaceFindCorners(Interface p, uint64_t *pairs)
+{
+  PetscFunctionBegin;
+  *pairs = 0;
+  for (PetscInt i = 0, end; i < p->num_contacts && p->dim == 2; i = end) {
+    const ContactSpec *spec = p->contacts[i].spec;
+    PetscBool          yes;
+    for (end = i + 1; end < p->num_contacts && p->contacts[end].spec->pair == spec->pair;) ++end;
+    if (spec->self || spec->node_to_segment || p->contacts[i].law->ties) continue;
+    PetscCall(Pair_Private(p, end - i, &p->contacts[i], &yes));
+    if (yes) *pairs |= UINT64_C(1) << spec->pair;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
