@@ -33,7 +33,7 @@ PetscErrorCode AppCheckRoles(App *app)
   pairs &= ~(app->exchanged | app->settled);
   for (PetscInt i = 0; i < app->data->num_contacts; ++i) {
     const ContactSpec *c = &app->data->contacts[i];
-    if (c->part > 0 || c->given || c->pair >= MOST || !(pairs >> c->pair & 1)) continue;
+    if (c->part > 0 || c->given || c->pair >= MOST || app->touched[c->pair] || !(pairs >> c->pair & 1)) continue;
     app->exchanged |= UINT64_C(1) << c->pair;
     app->anew = PETSC_TRUE;
     PetscCall(
