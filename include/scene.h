@@ -98,9 +98,9 @@ PetscErrorCode SceneGetData(Scene, const SceneData **);
    are; "" for any other kind, or when the scene has no units. Not collective. */
 PetscErrorCode SceneUnit(const SceneData *, const char *kind, size_t, char unit[]);
 PetscErrorCode SceneDestroy(Scene *);
-/* Before SceneSetUp: pairs, in the order of the scene, whose roles are to be the other way round than stiffness and corners at the reference positions say. Not
-   collective. */
-void        SceneExchange(Scene, uint64_t pairs);
+/* Before SceneSetUp: pairs, in the order of the scene, whose roles are to be the other way round than stiffness and corners at the reference positions say; and
+   what is to be refined besides, at[num], where group is a pair and stands for its nonmortar side. Borrowed. Not collective. */
+void        SceneExchange(Scene, uint64_t pairs, PetscInt num, const RefineSpec at[]);
 PetscBool   SceneCheckOnly(Scene); /* -check given */
 const char *SceneMeshFile(Scene);  /* mesh.file, from the working directory; valid until the next call. Not collective. */
 /* The key of this scene, as an option without its dash, that is nearest to a name. Not collective. */

@@ -47,7 +47,9 @@ typedef struct {
   Estimate         largest; /* with it: of the steps of this path that were above the tolerance */
   PetscInt         load_steps, adapt_passes, passes_in_step, told_cycles;
   uint64_t         exchanged, settled;                        /* pairs, by number: with other roles for a corner that presses; with roles that stay */
-  PetscBool        anew;                                      /* the run is to begin again with other ones (roles.c) */
+  PetscBool        anew;                                      /* the run is to begin again with other ones (roles.c) … */
+  PetscInt         num_corners;                               /* … whose first mesh … */
+  RefineSpec      *corner;                                    /* … is refined there, group: number of a pair; owned by what begins it */
   PetscLogDouble   start, accepted_at;                        /* of the run; when the last load step was accepted */
   PetscReal        later_solutions;                           /* seconds in the first solution of each load step but the first */
   PetscReal        arc, arc_first;                            /* along a path: length of the next step, of the first one; 0: not yet */
@@ -93,7 +95,7 @@ PetscBool AppOptionsWrong(int argc, char **argv, size_t capacity, char told[]);
 PetscErrorCode AppReadRoles(App *);
 /* At the solution of a load step, or where none was found: are there pairs whose corners press within facets of the other side? The run is to begin anew
    (app->anew) with their roles exchanged then. Collective. */
-PetscErrorCode AppCheckRoles(App *);
+PetscErrorCode AppCheckRoles(App *, PetscBool found);
 /* No solution was found, or none on finer meshes: where roles were exchanged the run is to begin anew with the former ones, which stay. Collective. */
 PetscErrorCode AppReturnRoles(App *);
 /* loadstep.c: all load steps; app->failure is set when the solver gives up. Collective. */

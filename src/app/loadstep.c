@@ -41,7 +41,7 @@ static PetscErrorCode LoadStep_Private(App *app, PetscBool *ok)
   if (!report.converged) PetscCall(AppCoarsen(app, &loop, &report));
   *(app->arc_first > 0 ? &app->arc : &app->dt) = loop.piece;
   *ok                                          = report.converged;
-  if (!app->path.stopped) PetscCall(AppCheckRoles(app));
+  if (!app->path.stopped) PetscCall(AppCheckRoles(app, report.converged));
   if (app->anew) PetscFunctionReturn(PETSC_SUCCESS);
   const PetscInt missed = app->num_missed;
   if (*ok) PetscCall(AppAdapt(app));

@@ -118,13 +118,20 @@ typedef struct {
   PetscBool      anew;
   PetscLogDouble start;
   uint64_t       exchanged, settled;
+  PetscInt       num_corners;
+  RefineSpec    *corner; /* owned */
   PetscInt       newton_iterations, factorisations, times;
 } Begun;
 
 /* One run, from the scene to the summary; anew: it ended where another one is to begin. */
 static PetscErrorCode Run_Private(int argc, char **argv, Begun *begun, int *status)
 {
-  App    app = {.comm = PETSC_COMM_WORLD, .start = begun->start, .exchanged = begun->exchanged, .settled = begun->settled};
+  App    app = {.comm        = PETSC_COMM_WORLD,
+                .start       = begun->start,
+                .exchanged   = begun->exchanged,
+                .settled     = begun->settled,
+                .num_corners = begun->num_corners,
+                .corner      = begun->corner};
   Forest forest;
 
   PetscFunctionBegin;
@@ -163,6 +170,8 @@ static PetscErrorCode Run_Private(int argc, char **argv, Begun *begun, int *stat
                     .start             = app.start,
                     .exchanged         = app.exchanged,
                     .settled           = app.settled,
+                    .num_corners       = app.num_corners,
+                    .corner            = app.corner,
                     .newton_iterations = app.path.newton_iterations,
                     .factorisations    = app.path.factorisations,
                     .times             = app.path.begun_anew + 1};
@@ -182,6 +191,7 @@ static PetscErrorCode Solve_Private(int argc, char **argv, int *status)
     PetscCall(Run_Private(argc, argv, &begun, status));
     if (begun.anew) WarningForget();
   } while (begun.anew);
+  PetscCall(PetscFree(begun.corner));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -20,21 +20,56 @@ PetscErrorCode AppReadRoles(App *app)
                     (double)value);
     *bits[k] = (uint64_t)value;
   }
-  SceneExchange(app->scene, app->exchanged);
+  SceneExchange(app->scene, app->exchanged, app->num_corners, app->corner);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode AppCheckRoles(App *app)
+/* The pair's facets at the corner are refined, in the run that begins anew. */
+static PetscErrorCode Refine_Private(App *app, const InterfaceCorner *c)
 {
-  uint64_t pairs;
+  PetscInt room = app->num_corners;
 
   PetscFunctionBegin;
-  PetscCall(InterfaceFindCorners(ProblemInterface(app->level.problem), &pairs));
-  pairs &= ~(app->exchanged | app->settled);
-  for (PetscInt i = 0; i < app->data->num_contacts; ++i) {
-    const ContactSpec *c = &app->data->contacts[i];
-    if (c->part > 0 || c->given || c->pair >= MOST || app->touched[c->pair] || !(pairs >> c->pair & 1)) continue;
-    app->exchanged |= UINT64_C(1) << c->pair;
+  if (c->splits == 0) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(ArrayGrow(app->num_corners + 1, sizeof(RefineSpec), &room, &app->corner));
+  app->corner[app->num_corners++] = (RefineSpec){.group = c->pair, .X = {c->X[0], c->X[1], c->X[2]}, .levels = c->splits};
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Where no solution was found trial states tell nothing: contact at the last one that was accepted. */
+static PetscErrorCode GoBack_Private(App *app)
+{
+  const Level  *l = &app->level;
+  ProblemStatus status;
+  Vec           r;
+
+  PetscFunctionBegin;
+  PetscCall(PathPrescribe(l->problem, l->accepted.t));
+  PetscCall(ProblemSetState(l->problem, &l->accepted));
+  PetscCall(ProblemSearch(l->problem, l->accepted.x));
+  PetscCall(VecDuplicate(l->accepted.x, &r));
+  PetscCall(ProblemResidual(l->problem, l->accepted.x, l->accepted.pressure, r, &status));
+  PetscCall(VecDestroy(&r));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode AppCheckRoles(App *app, PetscBool found)
+{
+  const uint64_t   settled = app->exchanged | app->settled;
+  PetscInt         num;
+  InterfaceCorner *corners;
+
+  PetscFunctionBegin;
+  if (!found) PetscCall(GoBack_Private(app));
+  PetscCall(InterfaceFindCorners(ProblemInterface(app->level.problem), (PetscBool)!found, &num, &corners));
+  for (PetscInt k = 0; k < num; ++k) {
+    const PetscInt     pair = corners[k].pair;
+    const ContactSpec *c    = app->data->contacts;
+    while (c->pair != pair) ++c;
+    if (c->given || pair >= MOST || app->touched[pair] || settled >> pair & 1) continue;
+    PetscCall(Refine_Private(app, &corners[k]));
+    if (app->exchanged >> pair & 1) continue;
+    app->exchanged |= UINT64_C(1) << pair;
     app->anew = PETSC_TRUE;
     PetscCall(
         PetscPrintf(app->comm,
@@ -42,6 +77,7 @@ PetscErrorCode AppCheckRoles(App *app)
                     "their roles exchanged\n",
                     c->name, (double)app->level.state.t));
   }
+  PetscCall(PetscFree(corners));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -1,18 +1,22 @@
-/* Sharp corners of the mortar side that press within a facet of the nonmortar side, in the plane. Gaps to both sides of such a corner open away from it and are
-   weighted with functions that are fixed to the facet, so that the corner rides over bumps whose slope is that of the gaps, at any size of facets. The side of
-   the corner has a node there, and is the better one to carry the multipliers (theory, 5, roles). */
+/* Sharp corners of the mortar side that press within a facet of the nonmortar side, or at a node of it alone, in the plane. Gaps to both sides of such a corner
+   open away from it and are weighted with functions that are fixed to the facet, so that the corner rides over bumps whose slope is that of the gaps, at any
+   size of facets. The side of the corner has a node there, and is the better one to carry the multipliers (theory, 5, roles). */
 #include "interfaceimpl.h"
 
 #define ENDS 2 /* of the mortar facets at a corner: that of the facet before it, and of the one after */
 
-/* A corner, by what this rank sees of it: nonmortar facet that faces either end and how the mortar facet slants to it (sine of the angle), -1: it faces
-   nothing; is it inside or does that facet press, and does one beside it? */
+/* A corner: nonmortar facet that faces either end, -1: it faces nothing; how the mortar facet slants to it (sine of the angle); is the corner inside? */
 typedef struct {
-  PetscReal facet[ENDS], slant[ENDS], presses, beside;
+  PetscReal facet[ENDS], slant[ENDS], inside;
 } Seen;
 
+/* What presses there: nodes of the facet that the corner lies in, or of the two that it lies between; and nodes of those beside. */
+typedef struct {
+  PetscReal there, beside;
+} Pressed;
+
 /* The facets of an outline that end and begin at each of its corners; -1: there is none. */
-static void Beside_Private(const Surface *s, PetscInt before[], PetscInt after[])
+static void Neighbours_Private(const Surface *s, PetscInt before[], PetscInt after[])
 {
   for (PetscInt n = 0; n < s->num_nodes; ++n) before[n] = after[n] = -1;
   for (PetscInt f = 0; f < s->num_facets; ++f) {
@@ -56,8 +60,9 @@ static PetscBool Presses_Private(const Contact *c, PetscInt f, PetscInt but)
   return PETSC_FALSE;
 }
 
-/* Is the corner inside the other body? Where it is a little within a facet, no mean of gaps may be closed yet. */
-static PetscBool IsInside_Private(const Contact *c, const ContactSegment *e, PetscInt end, const PetscReal N[3])
+/* Is the corner inside the other body, or off by less than a share of the facet's length? Where it is a little within a facet, no mean of gaps may be closed
+   yet. */
+static PetscBool IsInside_Private(const Contact *c, const ContactSegment *e, PetscInt end, const PetscReal N[3], PetscReal slack)
 {
   const Surface  *s = &c->side[0], *m = &c->side[1];
   const PetscInt *node, num = SurfaceNodes_Private(s, e->facet, &node), corner = m->facets[2 * e->mortar_facet + (e->eta[end][0] > 0)];
@@ -69,30 +74,25 @@ static PetscBool IsInside_Private(const Contact *c, const ContactSegment *e, Pet
     for (PetscInt k = 0; k < num; ++k) x += shape[k] * s->x[2 * node[k] + d];
     gap += N[d] * (m->x[2 * corner + d] - x);
   }
-  return (PetscBool)(gap < -CONTACT_ROUND * Dot3(N, N));
+  return (PetscBool)(gap < slack * Dot3(N, N));
 }
 
 /* One end of a segment lies at a corner. */
-static void Look_Private(const Contact *c, const ContactSegment *e, PetscInt at, const PetscInt before[], const PetscInt after[], Seen *seen)
+static void Look_Private(const Contact *c, const ContactSegment *e, PetscInt at, PetscReal slack, Seen *seen)
 {
-  const Surface *s   = &c->side[0];
   const PetscInt end = e->eta[at][0] > 0 ? 0 : 1; /* the facet before the corner ends there */
   PetscReal      N[3], M[3], cosine, sine;
 
-  ContactFacetVector(2, s->x, s->facets + 2 * e->facet, N);
+  ContactFacetVector(2, c->side[0].x, c->side[0].facets + 2 * e->facet, N);
   ContactFacetVector(2, c->side[1].x, c->side[1].facets + 2 * e->mortar_facet, M);
   Angle_Private(N, M, &cosine, &sine);
   seen->facet[end] = (PetscReal)e->facet;
   seen->slant[end] = PetscAbsReal(sine);
-  if (IsInside_Private(c, e, at, N) || Presses_Private(c, e->facet, -1)) seen->presses = 1;
-  for (PetscInt k = 0; k < 2; ++k) {
-    const PetscInt node = s->facets[2 * e->facet + k], g = k ? after[node] : before[node];
-    if (g >= 0 && Presses_Private(c, g, e->facet)) seen->beside = 1;
-  }
+  if (IsInside_Private(c, e, at, N, slack)) seen->inside = 1;
 }
 
 /* What the segments of this rank's facets tell of the corners, seen[corner[mortar node]]. */
-static PetscErrorCode Segments_Private(const Contact *c, const PetscInt corner[], const PetscInt before[], const PetscInt after[], Seen seen[])
+static PetscErrorCode Segments_Private(const Contact *c, PetscReal slack, const PetscInt corner[], Seen seen[])
 {
   const ContactSegment *e;
   PetscInt              num;
@@ -104,55 +104,99 @@ static PetscErrorCode Segments_Private(const Contact *c, const PetscInt corner[]
       const PetscReal eta  = e[i].eta[k][0];
       const PetscInt  node = c->side[1].facets[2 * e[i].mortar_facet + (eta > 0)];
       if (PetscAbsReal(eta) < 1 - CONTACT_ROUND || corner[node] < 0) continue;
-      if (PetscAbsReal(e[i].xi[k][0]) > 1 - CONTACT_ROUND) continue; /* beside a node, which holds it */
-      Look_Private(c, &e[i], k, before, after, &seen[corner[node]]);
+      Look_Private(c, &e[i], k, slack, &seen[corner[node]]);
     }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The corner lies within one facet, which presses as no facet beside it does, and both its faces turn away from that: what does not face it is upright. */
-static PetscBool IsAlone_Private(const Seen *s)
+/* The facet that the corner lies in, first and last, or the two that it lies between; false: it faces nothing, or facets that are apart. */
+static PetscBool Region_Private(const Surface *s, const PetscInt after[], const Seen *at, PetscInt *first, PetscInt *last)
 {
-  if (s->presses <= 0 || s->beside > 0) return PETSC_FALSE;
-  if (s->facet[0] >= 0 && s->facet[1] >= 0 && s->facet[0] != s->facet[1]) return PETSC_FALSE;
+  const PetscInt facet[ENDS] = {(PetscInt)at->facet[0], (PetscInt)at->facet[1]};
+  const PetscInt k           = facet[0] < 0 || (facet[1] >= 0 && after[s->facets[2 * facet[0] + 1]] != facet[1]); /* the first */
+
+  *first = facet[k];
+  *last  = facet[1 - k] < 0 ? facet[k] : facet[1 - k];
+  return (PetscBool)(*first >= 0 && (*first == *last || after[s->facets[2 * *first + 1]] == *last));
+}
+
+/* What presses of one part, as far as this rank knows. */
+static void Press_Private(const Contact *c, const PetscInt before[], const PetscInt after[], const Seen *at, Pressed *pressed)
+{
+  const Surface *s = &c->side[0];
+  PetscInt       first, last;
+
+  if (!Region_Private(s, after, at, &first, &last)) return;
+  const PetscInt beyond[2] = {before[s->facets[2 * first]], after[s->facets[2 * last + 1]]};
+  if (Presses_Private(c, first, -1) || Presses_Private(c, last, -1)) pressed->there = 1;
+  if ((beyond[0] >= 0 && Presses_Private(c, beyond[0], first)) || (beyond[1] >= 0 && Presses_Private(c, beyond[1], last))) pressed->beside = 1;
+}
+
+/* The corner presses as nothing beside it does, and both its faces turn away from the facet there: what does not face it is upright. */
+static PetscBool IsAlone_Private(const Surface *s, const PetscInt after[], const Seen *at, const Pressed *pressed)
+{
+  PetscInt first, last;
+
+  if (pressed->beside > 0 || (pressed->there <= 0 && at->inside <= 0) || !Region_Private(s, after, at, &first, &last)) return PETSC_FALSE;
   for (PetscInt k = 0; k < ENDS; ++k)
-    if (s->facet[k] >= 0 && s->slant[k] <= CONTACT_SLIVER) return PETSC_FALSE;
+    if (at->facet[k] >= 0 && at->slant[k] <= CONTACT_SLIVER) return PETSC_FALSE;
   return PETSC_TRUE;
 }
 
-/* The parts of one pair, which have the same sides. */
-static PetscErrorCode Pair_Private(Interface p, PetscInt num, const Contact part[], PetscBool *yes)
+/* How often the facets at the corner are to be halved so that they are less than twice as long as the facet that it presses on. */
+static PetscInt Splits_Private(const Surface *s, const Surface *m, PetscInt before, PetscInt after, const Seen *at)
+{
+  const PetscReal length  = SurfaceMeasure_Private(s, s->X, (PetscInt)PetscMax(at->facet[0], at->facet[1])) * (2 - ROUND_LENGTH);
+  PetscReal       longest = PetscMax(SurfaceMeasure_Private(m, m->X, before), SurfaceMeasure_Private(m, m->X, after));
+  PetscInt        splits  = 0;
+
+  for (; longest >= length; longest /= 2) ++splits;
+  return splits;
+}
+
+/* The parts of one pair, which have the same sides: corners are added to the list. */
+static PetscErrorCode Pair_Private(Interface p, PetscReal slack, PetscInt num_parts, const Contact part[], PetscInt *num, InterfaceCorner **list)
 {
   const Surface *s = &part[0].side[0], *m = &part[0].side[1];
-  PetscInt      *corner, *before[2], *after[2], corners = 0;
+  PetscInt      *corner, *before[2], *after[2], corners = 0, room = *num;
   Seen          *seen;
+  Pressed       *pressed;
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc5(m->num_nodes, &corner, s->num_nodes, &before[0], s->num_nodes, &after[0], m->num_nodes, &before[1], m->num_nodes, &after[1]));
-  for (PetscInt k = 0; k < 2; ++k) Beside_Private(&part[0].side[k], before[k], after[k]);
+  for (PetscInt k = 0; k < 2; ++k) Neighbours_Private(&part[0].side[k], before[k], after[k]);
   for (PetscInt n = 0; n < m->num_nodes; ++n) corner[n] = IsCorner_Private(m, before[1][n], after[1][n]) ? corners++ : -1;
   PetscCall(PetscMalloc1(corners, &seen));
+  PetscCall(PetscCalloc1(corners, &pressed));
   for (PetscInt k = 0; k < corners; ++k) seen[k] = (Seen){.facet = {-1, -1}};
-  for (PetscInt i = 0; i < num && corners > 0; ++i) PetscCall(Segments_Private(&part[i], corner, before[0], after[0], seen));
+  for (PetscInt i = 0; i < num_parts && corners > 0; ++i) PetscCall(Segments_Private(&part[i], slack, corner, seen));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, seen, (PetscMPIInt)(sizeof(Seen) / sizeof(PetscReal)) * (PetscMPIInt)corners, MPIU_REAL, MPI_MAX, p->comm));
-  *yes = PETSC_FALSE;
-  for (PetscInt k = 0; k < corners; ++k) *yes = (PetscBool)(*yes || IsAlone_Private(&seen[k]));
+  for (PetscInt i = 0; i < num_parts; ++i)
+    for (PetscInt k = 0; k < corners; ++k) Press_Private(&part[i], before[0], after[0], &seen[k], &pressed[k]);
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, pressed, 2 * (PetscMPIInt)corners, MPIU_REAL, MPI_MAX, p->comm));
+  for (PetscInt n = 0; n < m->num_nodes; ++n) {
+    if (corner[n] < 0 || !IsAlone_Private(s, after[0], &seen[corner[n]], &pressed[corner[n]])) continue;
+    PetscCall(ArrayGrow(*num + 1, sizeof(**list), &room, list));
+    InterfaceCorner *c = &(*list)[(*num)++];
+    *c                 = (InterfaceCorner){.pair = part[0].spec->pair, .X = {m->X[2 * n], m->X[2 * n + 1], 0}};
+    c->splits          = Splits_Private(s, m, before[1][n], after[1][n], &seen[corner[n]]);
+  }
   PetscCall(PetscFree(seen));
+  PetscCall(PetscFree(pressed));
   PetscCall(PetscFree5(corner, before[0], after[0], before[1], after[1]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode InterfaceFindCorners(Interface p, uint64_t *pairs)
+PetscErrorCode InterfaceFindCorners(Interface p, PetscBool near, PetscInt *num, InterfaceCorner **corners)
 {
   PetscFunctionBegin;
-  *pairs = 0;
+  *num     = 0;
+  *corners = NULL;
   for (PetscInt i = 0, end; i < p->num_contacts && p->dim == 2; i = end) {
     const ContactSpec *spec = p->contacts[i].spec;
-    PetscBool          yes;
     for (end = i + 1; end < p->num_contacts && p->contacts[end].spec->pair == spec->pair;) ++end;
     if (spec->self || spec->node_to_segment || p->contacts[i].law->ties) continue;
-    PetscCall(Pair_Private(p, end - i, &p->contacts[i], &yes));
-    if (yes) *pairs |= UINT64_C(1) << spec->pair;
+    PetscCall(Pair_Private(p, near ? CONTACT_SLIVER : -CONTACT_ROUND, end - i, &p->contacts[i], num, corners));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

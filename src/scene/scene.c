@@ -181,6 +181,11 @@ PetscErrorCode SceneSetUp(Scene s, Forest *forest)
   PetscCall(SceneTellMesh(s, *forest));
   for (PetscInt i = 0; i < d->num_refines; ++i) PetscCall(ForestRefine(forest, &d->refines[i]));
   PetscCall(Subdivide_Private(s, forest));
+  for (PetscInt i = 0; i < s->num_corners; ++i) {
+    RefineSpec at = s->corner[i];
+    at.group      = s->contact[at.group].spec.nonmortar;
+    PetscCall(ForestRefine(forest, &at));
+  }
   d->mechanics.num_bodies     = s->num_bodies;
   d->mechanics.bodies         = d->bodies;
   d->mechanics.num_boundaries = s->num_boundaries;
@@ -196,9 +201,11 @@ PetscErrorCode SceneGetData(Scene s, const SceneData **data)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-void SceneExchange(Scene s, uint64_t pairs)
+void SceneExchange(Scene s, uint64_t pairs, PetscInt num, const RefineSpec at[])
 {
-  s->exchange = pairs;
+  s->exchange    = pairs;
+  s->num_corners = num;
+  s->corner      = at;
 }
 
 PetscBool SceneCheckOnly(Scene s)

@@ -110,16 +110,18 @@ struct _p_Scene {
   SceneData data; /* what others see; its arrays are owned here */
   PetscBool check;
 
-  SceneNode *root;                          /* owned */
-  char      *text;                          /* owned; the file */
-  char       mesh_file[PETSC_MAX_PATH_LEN]; /* as written in the scene */
-  PetscInt   mesh_order, order;
-  PetscBool  trust; /* mesh.trust */
-  PetscBool  setup;
-  uint64_t   exchange;                      /* pairs, by number: SceneExchange */
-  PetscBool  subdivided;                    /* gmsh made hexahedra out of tetrahedra */
-  char       directory[PETSC_MAX_PATH_LEN]; /* of the scene file, with '/' at its end */
-  char       temporary[PETSC_MAX_PATH_LEN]; /* directory of the generated mesh, "" when none; rank 0 removes it */
+  SceneNode        *root;                          /* owned */
+  char             *text;                          /* owned; the file */
+  char              mesh_file[PETSC_MAX_PATH_LEN]; /* as written in the scene */
+  PetscInt          mesh_order, order;
+  PetscBool         trust; /* mesh.trust */
+  PetscBool         setup;
+  uint64_t          exchange;                      /* SceneExchange: pairs, by number … */
+  PetscInt          num_corners;                   /* … */
+  const RefineSpec *corner;                        /* … and what is refined */
+  PetscBool         subdivided;                    /* gmsh made hexahedra out of tetrahedra */
+  char              directory[PETSC_MAX_PATH_LEN]; /* of the scene file, with '/' at its end */
+  char              temporary[PETSC_MAX_PATH_LEN]; /* directory of the generated mesh, "" when none; rank 0 removes it */
 
   MaterialEntry *material; /* [data.num_materials] */
   BodyEntry     *body;     /* [num_bodies] in file order */
