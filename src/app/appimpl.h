@@ -63,7 +63,7 @@ typedef struct {
   int8_t          *first_level;    /* owned [coarse cells]: fewest splits of a leaf, all directions, before adaptation; NULL: nothing merges */
   PetscInt        *subdivided;     /* owned [num_contacts] by contact.<pair>.subdivide: auto, so often, or tried */
   FrictionFigures *friction;       /* owned, by ContactSpec.pair: of the last accepted load step of this run */
-  PetscInt        *touched;        /* owned, by ContactSpec.pair: load step of this run in which it was in contact first, at a node or between; 0: none */
+  PetscInt        *touched;        /* owned, by ContactSpec.pair: load step in which it was in contact first, at a node or between; 0: none */
   PetscReal        rough_error, rough_t, rough_norm; /* largest estimate of an accepted step, its time; largest norm */
   Folded           folded;                           /* most cells that an accepted step folded … */
   PetscReal        folded_t;                         /* … and its time */

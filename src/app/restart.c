@@ -150,6 +150,7 @@ static PetscErrorCode Numbers_Private(App *app, Numbers *n)
   for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(Reals); ++i)
     PetscCall(Number_Private(n, "", -1, Reals[i].name, NULL, (PetscReal *)(void *)((char *)app + Reals[i].at)));
   for (PetscInt i = 0; i < app->data->num_contacts; ++i) PetscCall(Number_Private(n, "subdivided.", i, "", &app->subdivided[i], NULL));
+  for (PetscInt i = 0; i < app->data->num_contacts; ++i) PetscCall(Number_Private(n, "touched.", i, "", &app->touched[i], NULL));
   for (PetscInt i = 0; i < SolverNumModifiers(); ++i) PetscCall(Number_Private(n, "modifier.", -1, SolverModifierName(i), &app->path.modifiers[i], NULL));
   for (PetscInt i = 0; i < PATH_RECOVERIES; ++i) {
     PetscCall(Number_Private(n, "tried.", -1, PathRecoveries[i].name, &app->path.recovery[i].tried, NULL));

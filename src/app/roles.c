@@ -53,20 +53,33 @@ static PetscErrorCode GoBack_Private(App *app)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Pairs that have not borne before, and whose roles may change. */
+static uint64_t Candidates_Private(const App *app)
+{
+  uint64_t pairs = 0;
+
+  for (PetscInt i = 0; i < app->data->num_contacts; ++i) {
+    const ContactSpec *c = &app->data->contacts[i];
+    if (!c->given && c->pair < MOST && !app->touched[c->pair]) pairs |= UINT64_C(1) << c->pair;
+  }
+  return pairs & ~(app->exchanged | app->settled);
+}
+
 PetscErrorCode AppCheckRoles(App *app, PetscBool found)
 {
-  const uint64_t   settled = app->exchanged | app->settled;
+  const uint64_t   candidates = Candidates_Private(app);
   PetscInt         num;
   InterfaceCorner *corners;
 
   PetscFunctionBegin;
+  if (!candidates) PetscFunctionReturn(PETSC_SUCCESS);
   if (!found) PetscCall(GoBack_Private(app));
   PetscCall(InterfaceFindCorners(ProblemInterface(app->level.problem), (PetscBool)!found, &num, &corners));
   for (PetscInt k = 0; k < num; ++k) {
     const PetscInt     pair = corners[k].pair;
     const ContactSpec *c    = app->data->contacts;
     while (c->pair != pair) ++c;
-    if (c->given || pair >= MOST || app->touched[pair] || settled >> pair & 1) continue;
+    if (pair >= MOST || !(candidates >> pair & 1)) continue;
     PetscCall(Refine_Private(app, &corners[k]));
     if (app->exchanged >> pair & 1) continue;
     app->exchanged |= UINT64_C(1) << pair;

@@ -25,7 +25,7 @@ static PetscInt Find(PetscReal x, PetscReal y, const PetscReal rise[2], PetscRea
   const ContactSpec   spec                  = {.pair = 3};
   PetscBool           has_multiplier[NODES] = {PETSC_FALSE}, valued[NODES];
   int8_t              active[NODES];
-  Contact             c         = {.spec = &spec, .law = ContactLaws[CONTACT_FRICTIONLESS], .has_multiplier = has_multiplier, .valued = valued, .active = active};
+  Contact             c = {.spec = &spec, .law = ContactLaws[CONTACT_FRICTIONLESS], .has_multiplier = has_multiplier, .valued = valued, .active = active};
   struct _p_Interface interface = {.comm = PETSC_COMM_SELF, .dim = 2, .num_contacts = 1, .contacts = &c};
   Chain               nonmortar, mortar;
   InterfaceCorner    *corner;
