@@ -94,6 +94,16 @@ PetscErrorCode AppCheckRoles(App *app, PetscBool found)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* The pair's corners are no longer those of its nonmortar side. */
+static void Forget_Private(App *app, PetscInt pair)
+{
+  PetscInt num = 0;
+
+  for (PetscInt k = 0; k < app->num_corners; ++k)
+    if (app->corner[k].group != pair) app->corner[num++] = app->corner[k];
+  app->num_corners = num;
+}
+
 PetscErrorCode AppReturnRoles(App *app)
 {
   PetscFunctionBegin;
@@ -102,6 +112,7 @@ PetscErrorCode AppReturnRoles(App *app)
     if (c->part > 0 || !c->cornered || c->pair >= MOST || app->settled >> c->pair & 1) continue;
     app->settled |= UINT64_C(1) << c->pair;
     app->exchanged ^= UINT64_C(1) << c->pair;
+    Forget_Private(app, c->pair);
     app->anew = PETSC_TRUE;
     PetscCall(
         PetscPrintf(app->comm,
