@@ -53,6 +53,16 @@ static PetscErrorCode GoBack_Private(App *app)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static PetscErrorCode Exchange_Private(App *app, const ContactSpec *c, const char *why)
+{
+  PetscFunctionBegin;
+  app->exchanged ^= UINT64_C(1) << c->pair;
+  app->anew = PETSC_TRUE;
+  PetscCall(
+      PetscPrintf(app->comm, "note: contact.%s: at t = %.6g %s: the run begins anew with their roles exchanged\n", c->name, (double)app->level.state.t, why));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Pairs that have not borne before, and whose roles may change. */
 static uint64_t Candidates_Private(const App *app)
 {
@@ -81,14 +91,7 @@ PetscErrorCode AppCheckRoles(App *app, PetscBool found)
     while (c->pair != pair) ++c;
     if (pair >= MOST || !(candidates >> pair & 1)) continue;
     PetscCall(Refine_Private(app, &corners[k]));
-    if (app->exchanged >> pair & 1) continue;
-    app->exchanged |= UINT64_C(1) << pair;
-    app->anew = PETSC_TRUE;
-    PetscCall(
-        PetscPrintf(app->comm,
-                    "note: contact.%s: at t = %.6g a sharp corner of the mortar side presses within a facet of the nonmortar side: the run begins anew with "
-                    "their roles exchanged\n",
-                    c->name, (double)app->level.state.t));
+    if (!(app->exchanged >> pair & 1)) PetscCall(Exchange_Private(app, c, "a sharp corner of the mortar side presses within a facet of the nonmortar side"));
   }
   PetscCall(PetscFree(corners));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -111,14 +114,8 @@ PetscErrorCode AppReturnRoles(App *app)
     const ContactSpec *c = &app->data->contacts[i];
     if (c->part > 0 || !c->cornered || c->pair >= MOST || app->settled >> c->pair & 1) continue;
     app->settled |= UINT64_C(1) << c->pair;
-    app->exchanged ^= UINT64_C(1) << c->pair;
     Forget_Private(app, c->pair);
-    app->anew = PETSC_TRUE;
-    PetscCall(
-        PetscPrintf(app->comm,
-                    "note: contact.%s: no equilibrium was found at t = %.6g with the side that has corners as the nonmortar side: the run begins anew with "
-                    "the other one\n",
-                    c->name, (double)app->level.state.t));
+    PetscCall(Exchange_Private(app, c, "no equilibrium was found with the side that has corners as the nonmortar side"));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

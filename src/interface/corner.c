@@ -25,7 +25,7 @@ static void Neighbours_Private(const Surface *s, PetscInt before[], PetscInt aft
   }
 }
 
-/* sine[2] of the angle from facet a of one outline to facet b of another one, and cosine */
+/* Of the angle from one vector to another one. */
 static void Angle_Private(const PetscReal a[3], const PetscReal b[3], PetscReal *cosine, PetscReal *sine)
 {
   const PetscReal size = PetscSqrtReal(Dot3(a, a) * Dot3(b, b));

@@ -6,13 +6,13 @@ import pathlib
 
 import pytest
 
-SCENES = pathlib.Path(__file__).resolve().parent / "scenes"
+SCENES = pathlib.Path(__file__).resolve().parent.parent / "gauntlet"
 NORMAL = -0.73  # of the forces that a slope of 34 degrees takes, turned with the beam
 
 
 def rib(radius, order=2):
     """A rigid rib that pushes the hook of a beam up a slope of 34 degrees."""
-    return json.dumps({"mesh": {"file": str(SCENES / "snap_slope.geo"), "parameter": {"r": radius}}, "model": "plane_strain", "order": order,
+    return json.dumps({"mesh": {"file": str(SCENES / "rib.geo"), "parameter": {"r": radius}}, "model": "plane_strain", "order": order,
                        "body": {"beam": {"material": "plastic"}, "rib": {"material": "tool", "motion": {"x": "-0.9*t"}}},
                        "material": {"plastic": {"law": "neo_hookean", "E": 1000, "nu": 0.3}, "tool": {"law": "rigid"}}, "boundary": {"root": {"fix": "xy"}},
                        "contact": {"c": {"nonmortar": "hook", "mortar": "rib_face"}}, "load": {"step": 0.025, "end": 0.3}})
@@ -23,7 +23,7 @@ def edge(size, friction=0):
     pair = {"nonmortar": "face", "mortar": ["top", "inner"]}
     if friction:
         pair["friction"] = friction
-    return json.dumps({"mesh": {"file": str(SCENES / "edge_on_slope.geo"), "order": 1, "parameter": {"f": size}}, "model": "plane_strain", "order": 2,
+    return json.dumps({"mesh": {"file": str(SCENES / "edge_slope.geo"), "order": 1, "parameter": {"f": size}}, "model": "plane_strain", "order": 2,
                        "body": {"block": {"material": "hard"}, "wedge": {"material": "soft"}},
                        "material": {"soft": {"law": "neo_hookean", "E": 1000, "nu": 0.3}, "hard": {"law": "neo_hookean", "E": 200000, "nu": 0.3}},
                        "boundary": {"base": {"fix": "xy"}, "held": {"displacement": {"x": 0, "y": -0.05}}}, "contact": {"c": pair}, "load": {"step": 1}})
