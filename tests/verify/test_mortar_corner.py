@@ -3,6 +3,7 @@ depends on the place, so that the run begins anew with the roles of the pair exc
 import json
 import math
 import pathlib
+import re
 
 import pytest
 
@@ -94,3 +95,33 @@ def test_edge_on_slope_adaptive(run, size):
     assert force(result) == pytest.approx([-7.505, 7.505], rel=0.03)
     assert result.summary["energy"] == pytest.approx(0.171, rel=0.005)
     assert not result.summary["contact"]["c"]["roles_exchanged"] and result.summary["begun_anew"] == 2
+
+
+def tooth(friction, **body):
+    """A sharp rigid tooth, its tip beside a node of a soft bed."""
+    return json.dumps({"mesh": {"file": str(SCENES / "tooth.geo"), "parameter": {"sh": 0.06}}, "model": "plane_strain", "order": 2,
+                       "body": {"gasket": {"material": "soft"}, "tooth": {"material": "hard", **body}},
+                       "material": {"soft": {"law": "neo_hookean", "E": 2, "nu": 0.4}, "hard": {"law": "rigid"}}, "boundary": {"gb": {"fix": "xy"}},
+                       "contact": {"c": {"nonmortar": "gt", "mortar": "ft", "friction": friction}}, "load": {"step": 0.5}})
+
+
+@pytest.mark.parametrize("body", [{"motion": {"y": "-0.1*t"}}, {"load": {"y": "-0.16*t", "x": "0.005*t"}}], ids=lambda body: next(iter(body)))
+def test_tangent(run, body):
+    """A rigid side that carries the multipliers, moved or under forces: its tangents are those of its residual."""
+    out = ends(run, tooth(0.3, **body), "-snes_test_jacobian").stdout.split("begins anew")
+    assert len(out) == 2
+    ratios = [float(ratio) for ratio in re.findall(r"\|\|J - Jfd\|\|_F/\|\|J\|\|_F = (\S+?),", out[1])]
+    assert len(ratios) > 5 and max(ratios) < 1e-6, ratios
+
+
+def test_under_forces(run):
+    """Pressed by a force a rigid side that carries them is where the same motion meets that force, on 1, 2 and 3 processes; forces and moments balance."""
+    text = tooth(0, load={"y": "-0.16*t"})
+    pressed = ends(run, text)
+    place = pressed.summary["body"]["tooth"]["displacement"]
+    for ranks in (2, 3):
+        assert ends(run, text, ranks=ranks).summary["body"]["tooth"]["displacement"] == pytest.approx(place, rel=1e-8)
+    moved = ends(run, tooth(0, motion={"y": f"{place[1]:.17g}*t"}))
+    assert force(pressed)[1] == pytest.approx(-0.16, rel=1e-9) and force(moved) == pytest.approx(force(pressed), rel=1e-8)
+    for result in (pressed, moved):
+        assert max(result.summary["contact"]["c"][key] for key in ("force_imbalance", "moment_imbalance")) < 1e-12
