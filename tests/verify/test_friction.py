@@ -472,11 +472,12 @@ def cattaneo(result, name="pair"):
 
 @pytest.mark.slow
 def test_cattaneo_mindlin(run):
-    """Tractions of partial slip, adapted on the way: root mean square over the zone of contact, against the peaks p0 and mu p0 of Hertz."""
-    result = run("mindlin.yml", text=MINDLIN.replace("GEO", str(ROOT / "inputs" / "hertz2d.geo")))
+    """Tractions of partial slip, adapted on the way: root mean square over the zone of contact, against the peaks p0 and mu p0 of Hertz. Cubic arcs: two parabolas
+    meet at the pole in a kink of 0.2 degrees, where the pressure grows without bound as the mesh is refined (1.12 p0 here, 2.8 % in the mean)."""
+    result = run("mindlin.yml", text=MINDLIN.replace("GEO", str(ROOT / "inputs" / "hertz2d.geo")).replace("order: 2, param", "order: 3, param"))
     assert result.returncode == 0, result
     _, _, error, _, nodes = cattaneo(result)
-    assert nodes > 60 and error[0] < 0.025 and error[1] < 0.035
+    assert nodes > 60 and error[0] < 0.015 and error[1] < 0.025
 
 
 @pytest.mark.slow
