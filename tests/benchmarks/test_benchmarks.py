@@ -24,7 +24,7 @@ def figures(record_property):
     def tell(problem, source, result, rows, published="-"):
         s = result.summary
         record_property("benchmark", {"problem": problem, "source": source, "published": published, "unknowns": s["dofs"], "steps": s["load_steps"], "newton": s["newton_iterations"],
-                                      "seconds": s["time"]["total"] - s["time"]["mesh"], "rows": [(name, float(value), target, tolerance) for name, value, target, tolerance in rows]})
+                                      "seconds": s["time"]["total"] - s["time"]["mesh"], "rows": [(name, float(value), float(target), tolerance) for name, value, target, tolerance in rows]})
         print([(name, float(value), target) for name, value, target, _ in rows], s["load_steps"], s["newton_iterations"], s["dofs"])
         assert result.solved, result
         for name, value, target, tolerance in rows:
