@@ -264,12 +264,16 @@ def test_fold(run, told):
     scene = (ROOT / "tests" / "gauntlet" / "fold.yml").read_text().replace("file: fold.geo", f"file: {ROOT}/tests/gauntlet/fold.geo")
     key = "contact: {"
     assert key in scene
-    pair = run("fold.yml", "-load_end", 0.75, *QUIET, text=scene.replace(key, key + "gap: {surface: inside}, "))
+    text = scene.replace(key, key + "gap: {surface: inside}, ")
+    pair = run("fold.yml", "-load_end", 0.75, *QUIET, text=text)
     none = run("tests/gauntlet/fold.yml", *QUIET)
     said = any("self" in str(word) for word in none.summary["warnings"])
     told("no" if pair.summary["contact"]["gap"]["min_gap"] > -1e-3 else "yes", "yes; a warning says so" if said else "yes")
     assert pair.returncode == 0 and pair.summary["contact"]["gap"]["min_gap"] > -1e-3 and pair.summary["contact"]["gap"]["max_pressure"] > 0
     assert none.returncode == 0 and said
+    for step in (0.05, 0.01):
+        finer = run("fold.yml", "-load_end", 0.75, "-load_step", step, *QUIET, text=text)
+        assert finer.returncode == 0 and finer.summary["energy"] == pytest.approx(pair.summary["energy"], rel=1e-9)
 
 
 @way("A corner of a soft block is drawn over a rigid plane, friction 0.5, eight cells along its foot: all of it slips", "tangential over normal force", "law: coulomb", "multiplier: standard")
