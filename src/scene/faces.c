@@ -129,8 +129,8 @@ static PetscReal Turn_Private(const Rim *a, const Rim *b, PetscBool within)
   return angle <= ROUND_LENGTH ? 0 : (within ? out < 0 : out > 0) ? -angle : angle;
 }
 
-/* From the end k of a facet on along the outline: the way within which it turns by the angle of a corner, convex throughout. Infinity: it does not, is straight
-   at first, or there is a shorter one. other[k]: the rim at the other end of the facet. */
+/* From the end k of a facet on along the outline: the way within which it turns by the angle of a corner, all in all (arcs of a high order meet in kinks of
+   either sign). Infinity: it does not, is straight or concave at first, or there is a shorter one. other[k]: the rim at the other end of the facet. */
 static PetscReal Round_Private(PetscInt num, const Rim rim[], const PetscInt other[], PetscInt k, PetscReal most)
 {
   const PetscReal sharp = acos(CONTACT_SHARP);
@@ -140,15 +140,13 @@ static PetscReal Round_Private(PetscInt num, const Rim rim[], const PetscInt oth
   for (PetscInt i = 0; i < num && k >= 0 && way < most; ++i) {
     const PetscInt  end    = other[k];
     const PetscReal within = Turn_Private(&rim[k], &rim[end], PETSC_TRUE), length = 0.5 * (rim[k].length + rim[end].length);
-    if (within < 0 || (i == 0 && within + turned == 0)) break;
+    if (i == 0 && within + turned <= 0) break;
     if (within > 0 && turned + within >= sharp) return way + length * PetscMax(0, sharp - turned) / within;
     turned += within;
     way += length;
     k = Neighbour_Private(num, rim, end);
     if (k < 0) break;
-    const PetscReal at = Turn_Private(&rim[end], &rim[k], PETSC_FALSE);
-    if (at < 0) break;
-    turned += at;
+    turned += Turn_Private(&rim[end], &rim[k], PETSC_FALSE);
     if (turned >= sharp) return way;
   }
   return PETSC_INFINITY;
