@@ -1,6 +1,8 @@
 /* The scene against its mesh: names of groups, every cell in a body, every body held, contact pairs of two surfaces. */
 #include "sceneimpl.h"
 
+#define AS_RIGID 100 /* times the modulus of the other side, in space: then nothing of its own makes each of many constraints round an edge felt */
+
 /* What one pass over the facets of the mesh finds. */
 typedef struct {
   Forest              whole;
@@ -239,24 +241,35 @@ static PetscReal Stiffness_Private(Scene s, const Facets *f, PetscInt group)
   return least;
 }
 
-/* Is the nonmortar side of the scene better the mortar one, and why? In the plane the side that has corners carries the multiplier: a corner has a node, which
-   is held on a smooth face wherever it slides; within a facet of the other side its constraint would be a mean of gaps that grow to both sides, which depends
-   on the place, so that the corner rides over bumps. One that is rounded within a facet of the other side is alike: that facet would wrap round it. Not where
-   the corner's facets are longer than all of the other side: what lies between its nodes is held by nothing. Where both sides have corners or neither has, the
-   softer one: on a stiffer side the constraints are as coarse as its facets while the other side deforms between its nodes; on a rigid one nothing of its own
-   makes each of them felt. */
-static PetscErrorCode Exchange_Private(Scene s, const Facets *f, const ContactEntry *c, const PetscReal stiffness[2], const char **why, PetscBool *cornered)
+/* Is the nonmortar side of the scene better the mortar one, and why? Nodes that a support holds have no multiplier, so a side that is held is as a rigid one.
+   In the plane the side that has corners carries the multiplier: a corner has a node, which is held on a smooth face wherever it slides; within a facet of the
+   other side its constraint would be a mean of gaps that grow to both sides, which depends on the place, so that the corner rides over bumps. One that is
+   rounded within a facet of the other side is alike, in space too: that facet would wrap round it, unless it is as hollow. Not where the corner's facets are
+   longer than all of the other side: what lies between its nodes is held by nothing. Where both sides have corners or neither has, the softer one: on a stiffer
+   side the constraints are as coarse as its facets while the other side deforms between its nodes; on a rigid one nothing of its own makes each of them felt.
+ */
+static PetscErrorCode Exchange_Private(Scene s, const Facets *f, const ContactEntry *c, const PetscReal stiffness[2], const PetscReal held[2], const char **why,
+                                       PetscBool *cornered)
 {
-  PetscReal corner[2], rounded[2], longest[2];
+  SideShape side[2];
+  PetscReal rounded[2];
 
   PetscFunctionBegin;
   *why = stiffness[0] > stiffness[1] ? "is the stiffer one" : NULL;
-  if (stiffness[0] >= PETSC_INFINITY) *why = "is rigid";
-  if (stiffness[0] >= PETSC_INFINITY || stiffness[1] >= PETSC_INFINITY || c->spec.law == CONTACT_TIED) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SceneCorner(f->whole, c->spec.nonmortar, &corner[0], &rounded[0], &longest[0]));
-  PetscCall(SceneCorner(f->whole, c->spec.mortar, &corner[1], &rounded[1], &longest[1]));
-  const PetscBool own = (PetscBool)(corner[0] <= longest[1]), other = (PetscBool)(corner[1] <= longest[0]);
-  const PetscBool own_round = (PetscBool)(rounded[0] <= longest[1]), other_round = (PetscBool)(rounded[1] <= longest[0]);
+  if ((held[0] > 0.5) != (held[1] > 0.5)) {
+    *why = held[0] > 0.5 ? "is held by supports" : NULL;
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  if (stiffness[1] >= PETSC_INFINITY || c->spec.law == CONTACT_TIED) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SceneSide(f->whole, c->spec.nonmortar, &side[0]));
+  PetscCall(SceneSide(f->whole, c->spec.mortar, &side[1]));
+  for (PetscInt k = 0; k < 2; ++k) {
+    rounded[k] = PETSC_INFINITY;
+    if (f->mesh->dim == 3 && stiffness[k] > AS_RIGID * stiffness[!k]) continue;
+    PetscCall(SceneRounded(f->whole, k ? c->spec.mortar : c->spec.nonmortar, acos(CONTACT_SHARP) + side[!k].hollow, &rounded[k]));
+  }
+  const PetscBool own = (PetscBool)(side[0].corner <= side[1].longest), other = (PetscBool)(side[1].corner <= side[0].longest);
+  const PetscBool own_round = (PetscBool)(rounded[0] <= side[1].longest), other_round = (PetscBool)(rounded[1] <= side[0].longest);
   if (own != other)
     *why = own ? NULL : "has no corner, the other side has,";
   else if (!own && own_round != other_round) /* a sharp one comes first */
@@ -267,15 +280,24 @@ static PetscErrorCode Exchange_Private(Scene s, const Facets *f, const ContactEn
 
 static PetscErrorCode Roles_Private(Scene s, const Facets *f, ContactEntry *c)
 {
-  const PetscInt  nonmortar    = c->spec.nonmortar;
-  const PetscReal stiffness[2] = {Stiffness_Private(s, f, c->spec.nonmortar), Stiffness_Private(s, f, c->spec.mortar)};
+  const PetscInt  nonmortar = c->spec.nonmortar, side[2] = {c->spec.nonmortar, c->spec.mortar};
+  const PetscReal stiffness[2] = {Stiffness_Private(s, f, side[0]), Stiffness_Private(s, f, side[1])};
   const PetscBool rigid[2]     = {(PetscBool)(stiffness[0] >= PETSC_INFINITY), (PetscBool)(stiffness[1] >= PETSC_INFINITY)};
-  const char     *why          = rigid[0] ? "is rigid" : NULL;
+  PetscReal       held[2];
 
   PetscFunctionBegin;
   PetscCheckInput(!rigid[0] || !rigid[1], "%s: '%s' and '%s' are both sides of rigid bodies; one side of a pair must be of a body that deforms",
                   NodeWhere(c->node), c->nonmortar, c->mortar);
-  if (c->roles != ROLES_GIVEN) PetscCall(Exchange_Private(s, f, c, stiffness, &why, &c->spec.cornered));
+  for (PetscInt k = 0; k < 2; ++k) {
+    held[k] = 1;
+    if (!rigid[k]) PetscCall(SceneHeld(f->whole, side[k], s->num_boundaries, s->data.boundaries, &held[k]));
+  }
+  PetscCheckInput(
+      held[0] < 1 || held[1] < 1,
+      "%s: supports or rigid bodies hold all of '%s' and of '%s' along their normals, and no pressure moves either; one side of a pair must be free to",
+      NodeWhere(c->node), c->nonmortar, c->mortar);
+  const char *why = rigid[0] ? "is rigid" : held[0] == 1 ? "is held by supports" : NULL;
+  if (!why && c->roles != ROLES_GIVEN) PetscCall(Exchange_Private(s, f, c, stiffness, held, &why, &c->spec.cornered));
   c->spec.given = (PetscBool)(c->roles == ROLES_GIVEN);
   if (s->exchange >> (c - s->contact) & 1) {
     c->spec.cornered = (PetscBool)!c->spec.cornered;

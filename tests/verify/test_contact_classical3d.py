@@ -163,9 +163,10 @@ def section(run, *options):
 
 
 def test_o56_rounded_punch(run):
-    """Quarter and section agree: displacement 1 %."""
-    result = solved(run, "inputs/punch3d.yml", *QUIET, "-adapt_tolerance", 0.25)
-    assert abs(pair(result)["force"][2] / (25 * math.pi * 50**2) - 1) < 2e-4
+    """Quarter and section agree: displacement 1 %. Moments of the rounded side's pressures balance to the gap that its motion leaves, as for the ball above."""
+    result = solved(run, "inputs/punch3d.yml", *QUIET, "-adapt_tolerance", 0.15)
+    assert result.summary["adapt_passes"] <= 5 and result.summary["cells"] < 800, result  # with the foundation's side as the nonmortar one 13 passes and 979 cells
+    assert abs(pair(result, 1e-4)["force"][2] / (25 * math.pi * 50**2) - 1) < 2e-4
     centre = result.summary["probe"]["centre"]
     assert abs(centre["displacement"][2] / section(run)[0] - 1) < 0.01, centre
 

@@ -195,3 +195,50 @@ def test_two_rigid_sides(run):
     result = run("floor.yml", text=floor(("disc: {material: rubber}", "disc: {material: hard}"), ("rubber: {law: neo_hookean, volumetric: quadratic, E: 1, nu: 0.3}, ", ""), ("{top: {displacement: {x: 0, y: -0.05}}, sym: {fix: x}}", "{}")))
     assert result.returncode == 1 and result.stderr.count("\n") == 1, result
     assert "contact.pair" in result.stderr and "'cup' and 'floor_top' are both sides of rigid bodies" in result.stderr
+
+
+# ---- sides that supports hold -----------------------------------------------------------------------------------------------------------
+
+def held(path, carries, **boundary):
+    """The upper block's lower face is held: the lower block, stiffer, takes the whole overlap."""
+    walls = {f"x{k}_{b}": {"fix": "x"} for k in (0, 1) for b in "lu"}
+    return overlapping(path, 0.1, carries, body={"l": {"material": "m"}, "u": {"material": "soft"}},
+                       material={name: {"law": "neo_hookean", "volumetric": "log", "E": E, "nu": 0} for name, E in (("m", 1), ("soft", 0.1))},
+                       boundary={"y0_l": {"fix": "y"}, "y1_u": {"fix": "y"}, "y0_u": {"fix": "y"}, **walls, **boundary})
+
+
+@pytest.mark.parametrize("order", [1, 2])
+@pytest.mark.parametrize("roles", ["auto", "given"])
+@pytest.mark.parametrize("carries", ["upper", "lower"])
+def test_a_held_side(run, tmp_path, carries, roles, order):
+    """Its nodes have no multiplier: it is the mortar side, as a rigid one, soft or not. (As the nonmortar side it bore nothing.)"""
+    result = run("overlap.yml", *QUIET, "-contact_pair_roles", roles, "-order", order, text=held(tmp_path, carries))
+    assert result.returncode == 0 and ("'y0_u' is held by supports and becomes the mortar side" in result.stdout) == (carries == "upper"), result
+    assert result.summary["reaction"]["y0_l"][1] == pytest.approx((1 / 0.9 - 0.9) / 2, rel=1e-9)
+
+
+def test_a_side_held_along_itself(run, tmp_path):
+    """Rollers leave the face free to move along its normal: nothing is exchanged."""
+    result = run("overlap.yml", *QUIET, text=held(tmp_path, "upper", y0_u={"fix": "x"}))
+    assert result.returncode == 0 and "becomes the mortar" not in result.stdout, result
+    assert result.summary["contact"]["pair"]["force"][1] > 0.009
+
+
+def test_two_held_sides(run, tmp_path):
+    result = run("overlap.yml", text=held(tmp_path, "upper", y1_l={"displacement": {"y": 0.01}}))
+    assert result.returncode == 1 and result.stderr.count("\n") == 1, result
+    assert "contact.pair" in result.stderr and "hold all of 'y0_u' and of 'y1_l' along their normals" in result.stderr
+
+
+# ---- edges rounded within a facet, in space -----------------------------------------------------------------------------------------------
+
+def test_a_side_with_rounded_edges_in_space(run):
+    """They carry the multiplier, unless the body is so stiff that nothing of its own makes constraints felt; a hollow side as round does not wrap round them."""
+    words = run("inputs/punch3d.yml", "-check").stdout
+    assert "becomes the mortar" not in words
+    words = run("inputs/punch3d.yml", "-check", "-mesh_parameter_k", 12).stdout  # the foundation's facets are shorter than the rounded edge
+    assert "'foot' is the stiffer one and becomes the mortar side" in words
+    words = run("inputs/angioplasty3d.yml", "-check").stdout  # metal 40 times as stiff as the balloon, 8000 times as the artery
+    assert "becomes the mortar" not in words
+    words = run("inputs/shrinkfit3d.yml", "-check").stdout
+    assert "has no edge rounded" not in words
