@@ -1,5 +1,6 @@
-/* Corners and rounded edges of contact sides and what supports hold of them, by which roles are chosen (check.c): sharp convex corners in the plane, and how short the way is within which a
-   surface turns by the angle of one. A facet of the other side that is as long would wrap round it. In space ways go through facets from edge to opposite edge. */
+/* Corners and rounded edges of contact sides and what supports hold of them, by which roles are chosen (check.c): sharp convex corners in the plane, and how
+   short the way is within which a surface turns by the angle of one. A facet of the other side that is as long would wrap round it. In space ways go through
+   facets from edge to opposite edge. */
 #include "rim.h"
 
 /* The rim of the facet that meets this one in its vertex (plane) or edge (space), where two at most do in an outer surface; -1: there is none. */

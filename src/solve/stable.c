@@ -1,7 +1,9 @@
 /* From an unstable equilibrium to a stable one. The inertia of its tangent tells that it is unstable (inertia.c); Newton's method finds it as it finds others,
-   and a body that buckles would stay straight. Along the eigenvector of the lowest eigenvalue the energy falls to both sides: down on the side that is lower,
-   and from there to a minimum (descent.c). The start of the iteration for the eigenvector is a function of the reference positions, so that the side is the
-   same on any number of ranks where both are equal, as for a body that may buckle either way. */
+   and a body that buckles would stay straight. Where nothing falls along the eigenvector of the lowest eigenvalue but what the mesh is off, as of a round body
+   free to turn, whose energy is that of its facets, or by round-off where it is free to slide, the equilibrium is neutral, and stays. Else along the
+   eigenvector of the lowest eigenvalue the energy falls to both sides: down on the side that is lower, and from there to a minimum (descent.c). The start of
+   the iteration for the eigenvector is a function of the reference positions, so that the side is the same on any number of ranks where both are equal, as for
+   a body that may buckle either way. */
 #include "solveimpl.h"
 
 #define ITERATIONS 30 /* inverse ones, with one factor */
@@ -79,25 +81,28 @@ static PetscErrorCode Leave_Private(Descent *d, Vec x, PetscBool *ok)
   PetscCall(DescentLinearise_Private(d, x, &done, ok));
   if (!*ok) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(DescentDirection_Private(d, &slope, ok));
-  *ok = (PetscBool)(d->shift > 0 && d->added == d->shift);
+  d->report->neutral = (PetscBool)(*ok && d->shift == 0);
+  *ok                = (PetscBool)(*ok && d->shift > 0 && d->added == d->shift);
   if (!*ok) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(Lowest_Private(d, &curvature, ok));
-  *ok = (PetscBool)(*ok && curvature < 0);
+  d->report->neutral = (PetscBool)(*ok && curvature >= 0);
+  *ok                = (PetscBool)(*ok && curvature < 0);
   if (!*ok) PetscFunctionReturn(PETSC_SUCCESS);
   first = PetscSqrtReal(-2 * PETSC_SQRT_MACHINE_EPSILON * d->status.energy / curvature);
   for (PetscInt k = 0; k < 2; ++k) PetscCall(Side_Private(d, x, k ? -first : first, &step[k], &merit[k]));
   const PetscInt k = merit[1] < merit[0] - ROUND_LENGTH * PetscAbsReal(d->merit - merit[0]) ? 1 : 0;
   PetscCall(PetscInfo(d->ksp, "energy falls by %g at %g, by %g at %g\n", (double)(d->merit - merit[0]), (double)step[0], (double)(d->merit - merit[1]),
                       (double)step[1]));
-  *ok     = (PetscBool)(step[k] != 0);
-  d->fall = (d->merit - merit[k]) / d->status.energy;
+  d->fall            = (d->merit - merit[k]) / d->status.energy;
+  d->report->neutral = (PetscBool)(d->fall <= d->resolution);
+  *ok                = (PetscBool)(step[k] != 0 && !d->report->neutral);
   PetscCall(VecAXPY(x, step[k], d->dx));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SolverStabilise(Solver s, State *state, SolverReport *report)
+PetscErrorCode SolverStabilise(Solver s, PetscReal resolution, State *state, SolverReport *report)
 {
   PetscFunctionBegin;
-  PetscCall(DescentRun_Private(s, Leave_Private, "no stable equilibrium was found", state, report));
+  PetscCall(DescentRun_Private(s, Leave_Private, resolution, "no stable equilibrium was found", state, report));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
