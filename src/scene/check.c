@@ -293,10 +293,10 @@ static PetscErrorCode Roles_Private(Scene s, const Facets *f, ContactEntry *c)
     if (!rigid[k]) PetscCall(SceneHeld(f->whole, side[k], s->num_boundaries, s->data.boundaries, &held[k]));
   }
   PetscCheckInput(
-      held[0] < 1 || held[1] < 1,
+      c->spec.law == CONTACT_TIED || held[0] < 1 || held[1] < 1,
       "%s: supports or rigid bodies hold all of '%s' and of '%s' along their normals, and no pressure moves either; one side of a pair must be free to",
       NodeWhere(c->node), c->nonmortar, c->mortar);
-  const char *why = rigid[0] ? "is rigid" : held[0] == 1 ? "is held by supports" : NULL;
+  const char *why = rigid[0] ? "is rigid" : held[0] == 1 && held[1] < 1 ? "is held by supports" : NULL;
   if (!why && c->roles != ROLES_GIVEN) PetscCall(Exchange_Private(s, f, c, stiffness, held, &why, &c->spec.cornered));
   c->spec.given = (PetscBool)(c->roles == ROLES_GIVEN);
   if (s->exchange >> (c - s->contact) & 1) {

@@ -386,7 +386,14 @@ def test_nothing_holds_them(run):
 
 
 def test_prescribed_side(run):
-    result = run("held.yml", text=glued(boundary={"bottom": {"fix": "xy"}, "upper_bottom": {"displacement": {"x": 0.1, "y": -0.1}}}))
+    """It becomes the mortar side; not where supports hold the other one along its normal, too: what may slide there cannot be tied to it."""
+    sides = ("-contact_pair_nonmortar", "lower_top", "-contact_pair_mortar", "upper_bottom")
+    text = glued(boundary={"bottom": {"fix": "xy"}, "upper_bottom": {"displacement": {"x": 0.1, "y": -0.1}}})
+    result, swapped = run("held.yml", text=text), run("held.yml", *sides, text=text)
+    assert result.returncode == swapped.returncode == 0 and "is held by supports and becomes the mortar side" in result.stdout, result
+    assert result.summary["reaction"]["bottom"] == pytest.approx(swapped.summary["reaction"]["bottom"], rel=1e-9) and result.summary["reaction"]["bottom"][1] > 0.01
+    both = glued(boundary={"bottom": {"fix": "xy"}, "lower_top": {"fix": "y"}, "upper_bottom": {"displacement": {"x": 0.1, "y": -0.1}}})
+    result = run("held.yml", text=both)
     assert result.returncode == 1 and "exchange nonmortar and mortar" in result.stderr, result
 
 
