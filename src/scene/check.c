@@ -1,7 +1,7 @@
 /* The scene against its mesh: names of groups, every cell in a body, every body held, contact pairs of two surfaces. */
 #include "sceneimpl.h"
 
-#define AS_RIGID 100 /* times the modulus of the other side, in space: then nothing of its own makes each of many constraints round an edge felt */
+#define AS_RIGID 10 /* times the modulus of the other side, in space: then nothing of its own makes each of many constraints round an edge felt */
 
 /* What one pass over the facets of the mesh finds. */
 typedef struct {
