@@ -78,8 +78,9 @@ PetscErrorCode PassageFindApart(Problem, const State *, Passage *);
 
 /* inside.c: the first contact pair that bears nothing though its bodies lie inside each other, deeper than a facet is long and not so at the reference
    positions, or of one surface that passes through itself so that a facet of it lies wholly inside; -1: there is none. *still: the first one whose
-   bodies do and did so at the reference positions, -1. At the state that was evaluated last. Finite kinematics. Collective. */
-PetscErrorCode InsideFind(Problem, const State *, PetscInt *pair, PetscInt *still);
+   bodies do and did so at the reference positions, -1. Looked at are the pair's own facets, or the whole boundaries of its bodies: sides that passed each other
+   in the mesh lie inside neither. At the state that was evaluated last. Finite kinematics. Collective. */
+PetscErrorCode InsideFind(Problem, const State *, PetscBool whole, PetscInt *pair, PetscInt *still);
 
 /* through.c: the first contact pair that bears nothing of which a body went right through the other one on straight ways from displacements `from` (local
    array) to the state; -1: there is none. At the state that was evaluated last. Finite kinematics. Collective. */

@@ -95,7 +95,7 @@ PetscErrorCode AppRefuseInside(Problem problem, const PetscReal from[], const St
   PetscInt pair, still;
 
   PetscFunctionBegin;
-  PetscCall(InsideFind(problem, state, &pair, &still));
+  PetscCall(InsideFind(problem, state, PETSC_FALSE, &pair, &still));
   *reason = pair < 0 ? NULL : "bodies of a contact pair lie inside each other, too deep for contact to be seen";
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -222,7 +222,7 @@ static PetscErrorCode WarnInside_Private(App *app)
 
   PetscFunctionBegin;
   if (app->failure) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(InsideFind(app->level.problem, &app->level.accepted, &lost, &still));
+  PetscCall(InsideFind(app->level.problem, &app->level.accepted, PETSC_TRUE, &lost, &still));
   if (still < 0) PetscFunctionReturn(PETSC_SUCCESS);
   app->touched[app->data->contacts[still].pair] = app->load_steps; /* they do */
   PetscCall(

@@ -1,6 +1,7 @@
 /* Do bodies of a contact pair lie inside each other where the pair bears nothing? Contact that is lost, by a motion across a whole body in one step say,
-   opposes no further motion, and what is found then is no solution. Of the pairs that bear nothing some places of either side, and places as far behind them in
-   their own body as their facet is long, are looked at: lines from a place inside a body leave it an odd number of times, whatever their direction. */
+   opposes no further motion, and what is found then is no solution. Of the pairs that bear nothing some places of either side (or of its body's boundary), and
+   places as far behind them in their own body as their facet is long, are looked at: lines from a place inside a body leave it an odd number of times, whatever
+   their direction. */
 #include "diagnoseimpl.h"
 
 #define SAMPLES 32 /* places of one side of a pair on a rank */
@@ -31,19 +32,34 @@ PetscBool LineCrosses_Private(PetscInt dim, const Piece *p, const PetscReal x[3]
   return (PetscBool)(out != 0 && Dot3(n, r) / out > 0 && u >= 0 && v >= 0 && u + v < 1);
 }
 
-/* Places of this rank, two to a piece: on it, and behind it in its own body. */
-static void Places_Private(const Pieces *s, const PetscInt bare[], PetscInt *num, Place place[])
+/* What is looked at: the pieces of a state, which parts have which sides (PiecesParts_Private), and whether places are on all facets of these parts or on the
+   pair's own. */
+typedef struct {
+  Pieces    s;
+  int8_t   *is; /* owned */
+  PetscBool whole;
+} Look;
+
+static PetscBool IsOf_Private(const Look *l, const Piece *p, PetscInt k)
 {
+  if (l->whole) return (PetscBool)l->is[2 * l->s.scene->num_contacts * p->part + k];
+  return (PetscBool)((p->groups & PairGroup_Private(&l->s.scene->contacts[k / 2], k % 2)) != 0);
+}
+
+/* Places of this rank, two to a piece: on it, and behind it in its own body. */
+static void Places_Private(const Look *l, const PetscInt bare[], PetscInt *num, Place place[])
+{
+  const Pieces *s = &l->s;
+
   *num = 0;
   for (PetscInt k = 0; k < 2 * s->scene->num_contacts; ++k) {
-    const uint64_t group = PairGroup_Private(&s->scene->contacts[k / 2], k % 2);
-    PetscInt       count = 0, seen = 0;
+    PetscInt count = 0, seen = 0;
     if (!bare[k / 2]) continue;
-    for (PetscInt i = 0; i < s->num; ++i) count += (s->piece[i].groups & group) != 0;
+    for (PetscInt i = 0; i < s->num; ++i) count += IsOf_Private(l, &s->piece[i], k);
     const PetscInt every = (count + SAMPLES - 1) / SAMPLES;
     for (PetscInt i = 0; i < s->num; ++i) {
       const Piece *p = &s->piece[i];
-      if (!(p->groups & group) || seen++ % every) continue;
+      if (!IsOf_Private(l, p, k) || seen++ % every) continue;
       for (PetscInt behind = 0; behind < 2; ++behind) {
         Place *to = &place[(*num)++];
         *to       = (Place){.pair = k / 2, .side = k % 2, .part = p->part};
@@ -56,17 +72,16 @@ static void Places_Private(const Pieces *s, const PetscInt bare[], PetscInt *num
 
 /* odd[place]: it lies inside a part with the other side of its pair that is not of its own side too; of one surface, inside another part than its own.
    Collective. */
-static PetscErrorCode Count_Private(const Pieces *s, MPI_Comm comm, PetscInt num, const Place place[], PetscInt crossed[])
+static PetscErrorCode Count_Private(const Look *l, MPI_Comm comm, PetscInt num, const Place place[], PetscInt crossed[])
 {
+  const Pieces  *s       = &l->s;
   const PetscInt columns = 2 * s->scene->num_contacts;
-  int8_t        *is;
 
   PetscFunctionBegin;
-  PetscCall(PiecesParts_Private(s, comm, &is));
   PetscCall(PetscArrayzero(crossed, 2 * num));
   for (PetscInt i = 0; i < s->num; ++i) {
     const Piece  *p   = &s->piece[i];
-    const int8_t *own = is + columns * p->part;
+    const int8_t *own = l->is + columns * p->part;
     for (PetscInt k = 0; k < num; ++k) {
       const PetscInt at = 2 * place[k].pair;
       if (!own[at + 1 - place[k].side]) continue;
@@ -74,24 +89,23 @@ static PetscErrorCode Count_Private(const Pieces *s, MPI_Comm comm, PetscInt num
       for (PetscInt d = 0; d < 2; ++d) crossed[2 * k + d] += LineCrosses_Private(s->dim, p, place[k].x, LinesAlong_Private[d]);
     }
   }
-  PetscCall(PetscFree(is));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, crossed, (PetscMPIInt)(2 * num), MPIU_INT, MPI_SUM, comm));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* within[pair]: one of its places lies inside the other body. */
-static PetscErrorCode Find_Private(const Pieces *s, MPI_Comm comm, const PetscInt bare[], PetscBool within[])
+static PetscErrorCode Find_Private(const Look *l, MPI_Comm comm, const PetscInt bare[], PetscBool within[])
 {
   PetscInt num_mine, num, *crossed;
   Place   *mine, *all;
 
   PetscFunctionBegin;
-  for (PetscInt i = 0; i < s->scene->num_contacts; ++i) within[i] = PETSC_FALSE;
-  PetscCall(PetscMalloc1(4 * SAMPLES * s->scene->num_contacts, &mine));
-  Places_Private(s, bare, &num_mine, mine);
+  for (PetscInt i = 0; i < l->s.scene->num_contacts; ++i) within[i] = PETSC_FALSE;
+  PetscCall(PetscMalloc1(4 * SAMPLES * l->s.scene->num_contacts, &mine));
+  Places_Private(l, bare, &num_mine, mine);
   PetscCall(GatherAll(comm, num_mine, sizeof(Place), mine, &num, &all));
   PetscCall(PetscMalloc1(2 * num, &crossed));
-  PetscCall(Count_Private(s, comm, num, all, crossed));
+  PetscCall(Count_Private(l, comm, num, all, crossed));
   for (PetscInt k = 0; k + 1 < num; k += 2) {
     if (crossed[2 * k] % 2 && crossed[2 * k + 1] % 2 && crossed[2 * k + 2] % 2 && crossed[2 * k + 3] % 2) within[all[k].pair] = PETSC_TRUE;
   }
@@ -103,9 +117,10 @@ static PetscErrorCode Find_Private(const Pieces *s, MPI_Comm comm, const PetscIn
 
 /* The first pair of those that is within, and not so as the mesh has it, with nothing displaced: supports and rigid bodies neither; and the first that still
    is. */
-static PetscErrorCode First_Private(Problem problem, MPI_Comm comm, PetscInt num, PetscInt bare[], const PetscBool within[], PetscInt *pair, PetscInt *still)
+static PetscErrorCode First_Private(Problem problem, MPI_Comm comm, PetscBool whole, PetscInt num, PetscInt bare[], const PetscBool within[], PetscInt *pair,
+                                    PetscInt *still)
 {
-  Pieces     s = {0};
+  Look       drawn = {.whole = whole};
   PetscReal *none;
   PetscBool *before, any = PETSC_FALSE;
 
@@ -118,12 +133,14 @@ static PetscErrorCode First_Private(Problem problem, MPI_Comm comm, PetscInt num
   const HPTables *v = HPSpaceGetTables(ProblemSpace(problem));
   PetscCall(PetscCalloc1(v->num_nodes * v->dim, &none));
   PetscCall(PetscMalloc1(num, &before));
-  PetscCall(PiecesAt_Private(problem, none, PETSC_TRUE, &s));
-  PetscCall(Find_Private(&s, comm, bare, before));
+  PetscCall(PiecesAt_Private(problem, none, PETSC_TRUE, &drawn.s));
+  PetscCall(PiecesParts_Private(&drawn.s, comm, &drawn.is));
+  PetscCall(Find_Private(&drawn, comm, bare, before));
   for (PetscInt i = num - 1; i >= 0; --i) {
     if (within[i]) *(before[i] ? still : pair) = i;
   }
-  PetscCall(PetscFree(s.piece));
+  PetscCall(PetscFree(drawn.is));
+  PetscCall(PetscFree(drawn.s.piece));
   PetscCall(PetscFree(before));
   PetscCall(PetscFree(none));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -194,10 +211,10 @@ static PetscErrorCode Own_Private(Problem problem, const State *state, const Pie
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode InsideFind(Problem problem, const State *state, PetscInt *pair, PetscInt *still)
+PetscErrorCode InsideFind(Problem problem, const State *state, PetscBool whole, PetscInt *pair, PetscInt *still)
 {
   Forest    forest = ProblemForest(problem);
-  Pieces    s      = {0};
+  Look      now    = {.whole = whole};
   PetscInt *bare, own;
   PetscBool any, *within;
 
@@ -208,11 +225,13 @@ PetscErrorCode InsideFind(Problem problem, const State *state, PetscInt *pair, P
   PetscCall(PetscMalloc2(scene->num_contacts, &bare, scene->num_contacts, &within));
   PetscCall(PairsBare_Private(problem, ForestComm(forest), scene->num_contacts, bare, &any));
   if (any) {
-    PetscCall(PiecesCollect_Private(problem, state, PETSC_TRUE, &s));
-    PetscCall(Find_Private(&s, ForestComm(forest), bare, within));
-    PetscCall(Own_Private(problem, state, &s, ForestComm(forest), bare, &own));
-    PetscCall(First_Private(problem, ForestComm(forest), scene->num_contacts, bare, within, pair, still));
-    PetscCall(PetscFree(s.piece));
+    PetscCall(PiecesCollect_Private(problem, state, PETSC_TRUE, &now.s));
+    PetscCall(PiecesParts_Private(&now.s, ForestComm(forest), &now.is));
+    PetscCall(Find_Private(&now, ForestComm(forest), bare, within));
+    PetscCall(Own_Private(problem, state, &now.s, ForestComm(forest), bare, &own));
+    PetscCall(First_Private(problem, ForestComm(forest), whole, scene->num_contacts, bare, within, pair, still));
+    PetscCall(PetscFree(now.is));
+    PetscCall(PetscFree(now.s.piece));
     if (*pair < 0) *pair = own;
   }
   PetscCall(PetscFree2(bare, within));

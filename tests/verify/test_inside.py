@@ -50,6 +50,28 @@ def test_as_the_mesh_has_them(run, tmp_path, dim):
     assert other.returncode == 2 and other.summary["refused_solutions"] == 1, other
 
 
+FLUSH = """
+Point(1) = {0, 0, 0, 0.2}; Point(2) = {1, 0, 0, 0.2}; Point(3) = {1, 1, 0, 0.2}; Point(4) = {0, 1, 0, 0.2};
+Point(11) = {a, -0.5, 0, 0.2}; Point(12) = {1 - a, -0.5, 0, 0.2}; Point(13) = {1 - a, 0.5, 0, 0.2}; Point(14) = {a, 0.5, 0, 0.2};
+For i In {0:3}
+  Line(1 + i) = {1 + i, 1 + (i + 1) % 4}; Line(11 + i) = {11 + i, 11 + (i + 1) % 4};
+EndFor
+Curve Loop(1) = {1:4}; Plane Surface(1) = {1}; Curve Loop(2) = {11:14}; Plane Surface(2) = {2}; Transfinite Surface{:}; Recombine Surface{:};
+Physical Surface("lower") = {1}; Physical Surface("upper") = {2};
+Physical Curve("bottom") = {1}; Physical Curve("hill") = {3}; Physical Curve("top") = {13}; Physical Curve("under") = {11};
+"""
+
+
+@pytest.mark.parametrize("aside", [0, 0.1])
+def test_sides_that_passed_each_other(run, tmp_path, aside):
+    """In the mesh, so that neither lies inside the other body, whose flanks are flush or not: that the bodies overlap is told."""
+    (tmp_path / "b.geo").write_text(f"a = {aside};" + FLUSH)
+    result = run("s.yml", text=json.dumps({"mesh": {"file": "b.geo"}, "model": "plane_strain", "body": {"lower": {"material": "m"}, "upper": {"material": "m"}},
+                                           "material": {"m": RUBBER}, "boundary": {"bottom": {"fix": "xy"}, "top": {"displacement": {"x": 0, "y": -0.1}}},
+                                           "contact": {"c": {"nonmortar": "under", "mortar": "hill"}}, "output": {"fields": False}}))
+    assert any("pair c lie inside each other" in text for text in result.summary["warnings"]), result
+
+
 ARM = """
 Point(1) = {0, 0, 0}; Point(2) = {2, 0, 0}; Point(3) = {2, 0.2, 0}; Point(4) = {1.7, 0.2, 0}; Point(5) = {1.7, 1.2, 0}; Point(6) = {1.5, 1.2, 0};
 Point(7) = {1.5, 0.2, 0}; Point(8) = {0.2, 0.2, 0}; Point(9) = {0.2, 0.62, 0}; Point(10) = {1.3, 0.62, 0}; Point(11) = {1.3, 0.83, 0}; Point(12) = {0, 0.83, 0};
