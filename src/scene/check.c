@@ -1,5 +1,5 @@
 /* The scene against its mesh: names of groups, every cell in a body, every body held, contact pairs of two surfaces. */
-#include "sceneimpl.h"
+#include "rim.h"
 
 #define AS_RIGID 10 /* times the modulus of the other side, in space: then nothing of its own makes each of many constraints round an edge felt */
 
@@ -248,56 +248,48 @@ static PetscReal Stiffness_Private(Scene s, const Facets *f, PetscInt group)
    longer than all of the other side: what lies between its nodes is held by nothing. Where both sides have corners or neither has, the softer one: on a stiffer
    side the constraints are as coarse as its facets while the other side deforms between its nodes; on a rigid one nothing of its own makes each of them felt.
  */
-static PetscErrorCode Exchange_Private(Scene s, const Facets *f, const ContactEntry *c, const PetscReal stiffness[2], const PetscReal held[2], const char **why,
-                                       PetscBool *cornered)
+static const char *Exchange_Private(const Facets *f, const ContactEntry *c, const PetscReal stiffness[2], const SideShape side[2], PetscBool *cornered)
 {
-  SideShape side[2];
-  PetscReal rounded[2];
+  const char *why = stiffness[0] > stiffness[1] ? "is the stiffer one" : NULL;
+  PetscBool   corner[2], rounded[2];
 
-  PetscFunctionBegin;
-  *why = stiffness[0] > stiffness[1] ? "is the stiffer one" : NULL;
-  if ((held[0] > 0.5) != (held[1] > 0.5)) {
-    *why = held[0] > 0.5 ? "is held by supports" : NULL;
-    PetscFunctionReturn(PETSC_SUCCESS);
-  }
-  if (stiffness[1] >= PETSC_INFINITY || c->spec.law == CONTACT_TIED) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SceneSide(f->whole, c->spec.nonmortar, &side[0]));
-  PetscCall(SceneSide(f->whole, c->spec.mortar, &side[1]));
+  if ((side[0].held > 0.5) != (side[1].held > 0.5)) return side[0].held > 0.5 ? "is held by supports" : NULL;
+  if (stiffness[1] >= PETSC_INFINITY || c->spec.law == CONTACT_TIED) return why;
   for (PetscInt k = 0; k < 2; ++k) {
-    rounded[k] = PETSC_INFINITY;
-    if (f->mesh->dim == 3 && stiffness[k] > AS_RIGID * stiffness[!k]) continue;
-    PetscCall(SceneRounded(f->whole, k ? c->spec.mortar : c->spec.nonmortar, acos(CONTACT_SHARP) + side[!k].hollow, &rounded[k]));
+    const SideShape *other = &side[!k];
+    const PetscBool  stiff = (PetscBool)(f->mesh->dim == 3 && stiffness[k] > AS_RIGID * stiffness[!k]);
+    corner[k]              = (PetscBool)(side[k].corner <= other->longest);
+    rounded[k]             = (PetscBool)(!stiff && SideShapeRounded(&side[k], acos(CONTACT_SHARP) + other->hollow) <= other->longest);
   }
-  const PetscBool own = (PetscBool)(side[0].corner <= side[1].longest), other = (PetscBool)(side[1].corner <= side[0].longest);
-  const PetscBool own_round = (PetscBool)(rounded[0] <= side[1].longest), other_round = (PetscBool)(rounded[1] <= side[0].longest);
-  if (own != other)
-    *why = own ? NULL : "has no corner, the other side has,";
-  else if (!own && own_round != other_round) /* a sharp one comes first */
-    *why = own_round ? NULL : "has no edge rounded within a facet of the other side, which has,";
-  *cornered = (PetscBool)((*why != NULL) != (stiffness[0] > stiffness[1]));
-  PetscFunctionReturn(PETSC_SUCCESS);
+  if (corner[0] != corner[1])
+    why = corner[0] ? NULL : "has no corner, the other side has,";
+  else if (!corner[0] && rounded[0] != rounded[1]) /* a sharp one comes first */
+    why = rounded[0] ? NULL : "has no edge rounded within a facet of the other side, which has,";
+  *cornered = (PetscBool)((why != NULL) != (stiffness[0] > stiffness[1]));
+  return why;
 }
 
 static PetscErrorCode Roles_Private(Scene s, const Facets *f, ContactEntry *c)
 {
-  const PetscInt  nonmortar = c->spec.nonmortar, side[2] = {c->spec.nonmortar, c->spec.mortar};
-  const PetscReal stiffness[2] = {Stiffness_Private(s, f, side[0]), Stiffness_Private(s, f, side[1])};
-  const PetscBool rigid[2]     = {(PetscBool)(stiffness[0] >= PETSC_INFINITY), (PetscBool)(stiffness[1] >= PETSC_INFINITY)};
-  PetscReal       held[2];
+  const PetscInt group[2] = {c->spec.nonmortar, c->spec.mortar};
+  PetscReal      stiffness[2];
+  SideShape      side[2];
 
   PetscFunctionBegin;
+  for (PetscInt k = 0; k < 2; ++k) stiffness[k] = Stiffness_Private(s, f, group[k]);
+  const PetscBool rigid[2] = {(PetscBool)(stiffness[0] >= PETSC_INFINITY), (PetscBool)(stiffness[1] >= PETSC_INFINITY)};
   PetscCheckInput(!rigid[0] || !rigid[1], "%s: '%s' and '%s' are both sides of rigid bodies; one side of a pair must be of a body that deforms",
                   NodeWhere(c->node), c->nonmortar, c->mortar);
   for (PetscInt k = 0; k < 2; ++k) {
-    held[k] = 1;
-    if (!rigid[k]) PetscCall(SceneHeld(f->whole, side[k], s->num_boundaries, s->data.boundaries, &held[k]));
+    PetscCall(SideShapeCreate(f->whole, group[k], s->num_boundaries, s->data.boundaries, &side[k]));
+    if (rigid[k]) side[k].held = 1;
   }
-  PetscCheckInput(
-      c->spec.law == CONTACT_TIED || held[0] < 1 || held[1] < 1,
-      "%s: supports or rigid bodies hold all of '%s' and of '%s' along their normals, and no pressure moves either; one side of a pair must be free to",
-      NodeWhere(c->node), c->nonmortar, c->mortar);
-  const char *why = rigid[0] ? "is rigid" : held[0] == 1 && held[1] < 1 ? "is held by supports" : NULL;
-  if (!why && c->roles != ROLES_GIVEN) PetscCall(Exchange_Private(s, f, c, stiffness, held, &why, &c->spec.cornered));
+  PetscCheckInput(c->spec.law == CONTACT_TIED || side[0].held < 1 || side[1].held < 1,
+                  "%s: supports or rigid bodies hold all of '%s' and of '%s' along their normals; one side of a pair must be free to move under a pressure",
+                  NodeWhere(c->node), c->nonmortar, c->mortar);
+  const char *why = rigid[0] ? "is rigid" : side[0].held == 1 && side[1].held < 1 ? "is held by supports" : NULL;
+  if (!why && c->roles != ROLES_GIVEN) why = Exchange_Private(f, c, stiffness, side, &c->spec.cornered);
+  for (PetscInt k = 0; k < 2; ++k) PetscCall(SideShapeDestroy(&side[k]));
   c->spec.given = (PetscBool)(c->roles == ROLES_GIVEN);
   if (s->exchange >> (c - s->contact) & 1) {
     c->spec.cornered = (PetscBool)!c->spec.cornered;
@@ -306,8 +298,8 @@ static PetscErrorCode Roles_Private(Scene s, const Facets *f, ContactEntry *c)
   if (!why) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscPrintf(s->comm, "note: %s: '%s' %s and becomes the mortar side, '%s' the nonmortar side\n", NodeWhere(c->node), c->nonmortar, why, c->mortar));
   c->spec.exchanged = PETSC_TRUE;
-  c->spec.nonmortar = c->spec.mortar;
-  c->spec.mortar    = nonmortar;
+  c->spec.nonmortar = group[1];
+  c->spec.mortar    = group[0];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -20,20 +20,21 @@ static PetscReal Turn_Private(const Rim *a, const Rim *b, PetscBool within)
 }
 
 /* From the end k of a facet on along the outline: the way within which it turns by the angle sharp, all in all (arcs of a high order meet in kinks of
-   either sign). Infinity: it does not, is straight or concave at first, or there is a shorter one. other[k]: the rim at the other end of the facet. */
-static PetscReal Round_Private(PetscInt num, const Rim rim[], const PetscInt other[], PetscInt k, PetscReal sharp, PetscReal most)
+   either sign). Infinity: it does not, is straight or concave at first, or there is a shorter one. */
+static PetscReal Round_Private(const SideShape *s, PetscInt k, PetscReal sharp, PetscReal most)
 {
-  const PetscInt from = Neighbour_Private(num, rim, k);
+  const Rim     *rim  = s->rim;
+  const PetscInt from = Neighbour_Private(s->num, rim, k);
   PetscReal      way = 0, turned = from < 0 ? 0 : PetscMax(0, Turn_Private(&rim[from], &rim[k], PETSC_FALSE));
 
-  for (PetscInt i = 0; i < num && k >= 0 && way < most; ++i) {
-    const PetscInt  end    = other[k];
+  for (PetscInt i = 0; i < s->num && k >= 0 && way < most; ++i) {
+    const PetscInt  end    = s->other[k];
     const PetscReal within = Turn_Private(&rim[k], &rim[end], PETSC_TRUE), length = 0.5 * (rim[k].across + rim[end].across);
     if (i == 0 && within + turned <= 0) break;
     if (within > 0 && turned + within >= sharp) return way + length * PetscMax(0, sharp - turned) / within;
     turned += within;
     way += length;
-    k = Neighbour_Private(num, rim, end);
+    k = Neighbour_Private(s->num, rim, end);
     if (k < 0) break;
     turned += Turn_Private(&rim[end], &rim[k], PETSC_FALSE);
     if (turned >= sharp) return way;
@@ -46,61 +47,6 @@ static PetscBool IsSharp_Private(PetscInt num, const Rim rim[], PetscInt k)
 {
   const PetscInt next = Neighbour_Private(num, rim, k);
   return (PetscBool)(next >= 0 && Turn_Private(&rim[k], &rim[next], PETSC_FALSE) >= acos(CONTACT_SHARP));
-}
-
-/* The opposite vertex or edge of the same facet, rim by rim. */
-static PetscErrorCode Opposite_Private(PetscInt places, PetscInt num, const Rim rim[], PetscInt other[])
-{
-  PetscInt *at;
-
-  PetscFunctionBegin;
-  PetscCall(PetscMalloc1(places * num, &at));
-  for (PetscInt k = 0; k < num; ++k) at[places * rim[k].facet + rim[k].place] = k;
-  for (PetscInt k = 0; k < num; ++k) other[k] = at[places * rim[k].facet + places - 1 - rim[k].place];
-  PetscCall(PetscFree(at));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SceneSide(Forest forest, PetscInt group, SideShape *shape)
-{
-  const PetscInt dim = ForestGetTables(forest)->dim, places = dim == 2 ? 3 : 9;
-  PetscInt       num, *other;
-  Rim           *rim;
-
-  PetscFunctionBegin;
-  *shape = (SideShape){.corner = PETSC_INFINITY};
-  PetscCall(SceneRims(forest, group, &num, &rim));
-  PetscCall(PetscMalloc1(num, &other));
-  PetscCall(Opposite_Private(places, num, rim, other));
-  for (PetscInt k = 0; k < num; ++k) {
-    if (dim == 3 && rim[k].place % 2 == 0) continue; /* a vertex of a facet in space */
-    const PetscInt next = Neighbour_Private(num, rim, k);
-    shape->longest      = PetscMax(shape->longest, rim[k].length);
-    shape->hollow       = PetscMax(shape->hollow, -Turn_Private(&rim[k], &rim[other[k]], PETSC_TRUE));
-    if (dim == 2 && IsSharp_Private(num, rim, k)) shape->corner = PetscMin(shape->corner, PetscMax(rim[k].length, rim[next].length));
-  }
-  PetscCall(PetscFree(other));
-  PetscCall(PetscFree(rim));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SceneRounded(Forest forest, PetscInt group, PetscReal angle, PetscReal *way)
-{
-  const PetscInt dim = ForestGetTables(forest)->dim, places = dim == 2 ? 3 : 9;
-  PetscInt       num, *other;
-  Rim           *rim;
-
-  PetscFunctionBegin;
-  *way = PETSC_INFINITY;
-  PetscCall(SceneRims(forest, group, &num, &rim));
-  PetscCall(PetscMalloc1(num, &other));
-  PetscCall(Opposite_Private(places, num, rim, other));
-  for (PetscInt k = 0; k < num; ++k) {
-    if ((dim == 2 || rim[k].place % 2) && !IsSharp_Private(num, rim, k)) *way = PetscMin(*way, Round_Private(num, rim, other, k, angle, *way));
-  }
-  PetscCall(PetscFree(other));
-  PetscCall(PetscFree(rim));
-  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Do supports hold the normal of a facet at its rim? */
@@ -119,15 +65,56 @@ static PetscBool IsHeld_Private(PetscInt num, const BoundarySpec boundary[], con
   return (PetscBool)(held > 0.5);
 }
 
-PetscErrorCode SceneHeld(Forest forest, PetscInt group, PetscInt num_boundaries, const BoundarySpec boundary[], PetscReal *share)
+/* The opposite vertex or edge of the same facet, rim by rim. */
+static PetscErrorCode Opposite_Private(SideShape *s, PetscInt places)
 {
-  PetscInt num, held = 0;
-  Rim     *rim;
+  const PetscInt num_facets = s->num / (places - 1);
+  PetscInt      *at;
 
   PetscFunctionBegin;
-  PetscCall(SceneRims(forest, group, &num, &rim));
-  for (PetscInt k = 0; k < num; ++k) held += IsHeld_Private(num_boundaries, boundary, &rim[k]);
-  *share = num ? (PetscReal)held / (PetscReal)num : 0;
-  PetscCall(PetscFree(rim));
+  PetscCall(PetscMalloc1(s->num, &s->other));
+  PetscCall(PetscMalloc1(places * num_facets, &at));
+  for (PetscInt k = 0; k < s->num; ++k) at[places * s->rim[k].facet + s->rim[k].place] = k;
+  for (PetscInt k = 0; k < s->num; ++k) s->other[k] = at[places * s->rim[k].facet + places - 1 - s->rim[k].place];
+  PetscCall(PetscFree(at));
   PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SideShapeCreate(Forest forest, PetscInt group, PetscInt num_boundaries, const BoundarySpec boundary[], SideShape *s)
+{
+  const PetscInt dim  = ForestGetTables(forest)->dim;
+  PetscInt       held = 0;
+
+  PetscFunctionBegin;
+  *s = (SideShape){.corner = PETSC_INFINITY};
+  PetscCall(SceneRims(forest, group, &s->num, &s->rim));
+  PetscCall(Opposite_Private(s, dim == 2 ? 3 : 9));
+  for (PetscInt k = 0; k < s->num; ++k) {
+    const Rim     *r    = &s->rim[k];
+    const PetscInt next = Neighbour_Private(s->num, s->rim, k);
+    held += IsHeld_Private(num_boundaries, boundary, r);
+    s->longest = PetscMax(s->longest, r->length);
+    if (r->is_vertex) continue;
+    s->hollow = PetscMax(s->hollow, -Turn_Private(r, &s->rim[s->other[k]], PETSC_TRUE));
+    if (dim == 2 && IsSharp_Private(s->num, s->rim, k)) s->corner = PetscMin(s->corner, PetscMax(r->length, s->rim[next].length));
+  }
+  s->held = s->num ? (PetscReal)held / (PetscReal)s->num : 0;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SideShapeDestroy(SideShape *s)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscFree(s->rim));
+  PetscCall(PetscFree(s->other));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscReal SideShapeRounded(const SideShape *s, PetscReal angle)
+{
+  PetscReal way = PETSC_INFINITY;
+
+  for (PetscInt k = 0; k < s->num; ++k)
+    if (!s->rim[k].is_vertex && !IsSharp_Private(s->num, s->rim, k)) way = PetscMin(way, Round_Private(s, k, angle, way));
+  return way;
 }

@@ -59,12 +59,13 @@ PetscErrorCode SceneRims(Forest forest, PetscInt group, PetscInt *num, Rim **rim
     const PetscInt cell = leaf[0] >= 0 ? leaf[0] : leaf[1], side = ForestCoarseSide(t, cell, f);
     for (PetscInt k = 0; k < (t->dim == 2 ? 3 : 9); ++k) {
       if (cl[k] == f) continue;
-      Rim *r    = *rim + (*num)++;
-      r->entity = cl[k];
-      r->side   = side;
-      r->facet  = number;
-      r->place  = k;
-      r->groups = t->boundary[f];
+      Rim *r       = *rim + (*num)++;
+      r->entity    = cl[k];
+      r->side      = side;
+      r->facet     = number;
+      r->place     = k;
+      r->is_vertex = (PetscBool)(t->dim == 3 && k % 2 == 0);
+      r->groups    = t->boundary[f];
       Axes_Private(mesh, t, cell, side % (2 * t->dim), cl[k], r);
     }
     ++number;

@@ -187,18 +187,6 @@ PetscErrorCode SceneCheckMesh(Scene, Forest);
 PetscErrorCode SceneTellMesh(Scene, Forest);
 /* faces.c. Colours of the smooth faces of a group by side of the coarse mesh, -1: not in the group; *colour is the caller's. Not collective. */
 PetscErrorCode SceneColourFaces(Forest, PetscInt group, PetscInt *num_colours, int8_t **colour);
-/* Shape of a contact side, as far as roles depend on it (corner.c). */
-typedef struct {
-  PetscReal longest; /* of its facets; in space of the shorter lengths of each */
-  PetscReal hollow;  /* the most that a facet turns concavely */
-  PetscReal corner;  /* plane: of convex corners of more than 40 degrees the least length of the longer of both facets; infinity: it has none */
-} SideShape;
-/* Not collective. */
-PetscErrorCode SceneSide(Forest, PetscInt group, SideShape *);
-/* The least way on the surface within which it turns convexly by the angle, beside sharp corners; infinity: it does nowhere. Not collective. */
-PetscErrorCode SceneRounded(Forest, PetscInt group, PetscReal angle, PetscReal *way);
-/* Share of its facets that supports hold along their normals. Not collective. */
-PetscErrorCode SceneHeld(Forest, PetscInt group, PetscInt num_boundaries, const BoundarySpec[], PetscReal *share);
 /* The same on sides of contact pairs that are chords of what they stand for (chords.c). Collective. */
 PetscErrorCode SceneTellChords(Scene, Forest);
 /* Reference position of a vertex (check.c). Not collective. */

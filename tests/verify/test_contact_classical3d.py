@@ -204,6 +204,14 @@ def test_o56_roles(run, order):
     assert plain.returncode == 0 and plain.summary["adapt_passes"] <= 6 and plain.summary["energy"] == pytest.approx(swapped.summary["energy"], rel=1e-12)
 
 
+def test_o56_roles_matter(run):
+    """With the foundation's facets round the punch's edge: 12 passes do not reach what 9 do with the punch's foot as the nonmortar side, and on one mesh a single node bears all."""
+    foot, top = (solved(run, "round.yml", *QUIET, *roles, "-adapt_tolerance", 0.005, text=ROUND) for roles in ((), SWAPPED))
+    for result in (foot, top): print([round(row["estimated_error"], 3) for row in result.adapt], [row["active_nodes"] for row in result.adapt])
+    assert foot.returncode == 0 and foot.summary["adapt_passes"] <= 9
+    assert top.returncode == 2 and top.summary["estimated_error"] > 0.02 and any(row["active_nodes"] == 1 for row in top.adapt)
+
+
 @pytest.mark.xfail(strict=True, reason="the benchmark's displacement is an average of codes on coarse cells; both roles, orders 1 and 2 and the quarter in "
                                        "three dimensions converge to -0.1340, 2.5 % more")
 def test_o56_benchmark(run):

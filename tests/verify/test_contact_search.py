@@ -217,6 +217,11 @@ def test_a_held_side(run, tmp_path, carries, roles, order):
     assert result.summary["reaction"]["y0_l"][1] == pytest.approx((1 / 0.9 - 0.9) / 2, rel=1e-9)
 
 
+def test_a_held_side_on_ranks(run, tmp_path):
+    one, *more = (run("overlap.yml", *QUIET, ranks=ranks, text=held(tmp_path, "upper")).summary for ranks in (1, 2, 3))
+    for other in more: assert other["energy"] == pytest.approx(one["energy"], rel=1e-10)
+
+
 def test_a_side_held_along_itself(run, tmp_path):
     """Rollers leave the face free to move along its normal: nothing is exchanged."""
     result = run("overlap.yml", *QUIET, text=held(tmp_path, "upper", y0_u={"fix": "x"}))
