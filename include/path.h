@@ -131,7 +131,7 @@ typedef struct {
 PetscBool      PathCanDescend(const Path *, const State *guess);
 PetscErrorCode PathDescend(Path *, const PathLoop *load, PetscReal to, const State *guess, SolverReport *);
 /* load.stable: where the last equilibrium, level->state, is unstable, it gives way to a stable one, if that can be had. *changed: it did. Collective. */
-PetscErrorCode PathStabilise(Path *, PetscReal error, PetscBool *changed);
+PetscErrorCode PathStabilise(Path *, PetscBool *changed);
 
 extern const Recovery PathRecoveries[PATH_RECOVERIES];
 

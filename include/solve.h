@@ -21,7 +21,7 @@ typedef struct {
   PetscInt      descents; /* of SolverDescend, each with multipliers of its own */
   PetscInt      descent_iterations; /* their tangent assemblies */
   PetscReal     fall;               /* of SolverStabilise: of the energy along the lowest eigenvector, in strain energies */
-  PetscBool     neutral;            /* of SolverStabilise: it does not fall there by more than the resolution, and the state stays */
+  PetscBool     neutral;            /* of SolverStabilise: the lowest eigenvalue is not below zero but by round-off */
   PetscReal     residual, scale;
   ProblemStatus status;
 } SolverReport;
@@ -62,8 +62,7 @@ void SolverSwapPredictor(Solver, PetscBool swap);
    after one descent or two. Slow, and nothing cycles. Collective. */
 PetscErrorCode SolverDescend(Solver, State *, SolverReport *);
 /* From an equilibrium that is unstable (report.unstable) to one that is stable, or less so: along the eigenvector of the lowest eigenvalue, where the energy
-   falls more, and by descent. Not converged: it is neutral (report.neutral; the energy falls by no more than resolution, in strain energies), or no
-   equilibrium was found. HasDescent: is there an energy, and are there the
+   falls more, and by descent. Not converged: there is no such eigenvalue, or no equilibrium was found. HasDescent: is there an energy, and are there the
    factors? Collective. */
 PetscBool      SolverHasDescent(Solver);
-PetscErrorCode SolverStabilise(Solver, PetscReal resolution, State *, SolverReport *);
+PetscErrorCode SolverStabilise(Solver, State *, SolverReport *);

@@ -171,7 +171,7 @@ PetscErrorCode AppAdapt(App *app)
     PetscCall(AppEstimate(app));
     app->adapt_stop = here ? Stop_Private(app) : "";
     if ((!here || app->adapt_stop[0]) && !judged) { /* of this step, and of coarser meshes nobody asks */
-      PetscCall(PathStabilise(&app->path, app->estimate.relative, &judged));
+      PetscCall(PathStabilise(&app->path, &judged));
       if (judged) continue;
     }
     if (here && !app->adapt_stop[0]) PetscCall(AppLayers(app, &app->estimate, &layers));

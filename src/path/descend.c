@@ -36,7 +36,7 @@ static PetscErrorCode Keep_Private(Level *l, const State *unstable)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode PathStabilise(Path *p, PetscReal error, PetscBool *changed)
+PetscErrorCode PathStabilise(Path *p, PetscBool *changed)
 {
   Level       *l     = p->level;
   const char  *words = NULL;
@@ -50,9 +50,8 @@ PetscErrorCode PathStabilise(Path *p, PetscReal error, PetscBool *changed)
   PetscCall(StateCreate(l->problem, &unstable));
   PetscCall(StateCopy(&l->state, &unstable));
   PetscCall(PathFrom(p, &from));
-  /* A body that nothing but contact holds may slide or turn at no cost but that of its facets. */
-  PetscCall(SolverStabilise(l->solver, ProblemHasFreeBody(l->problem) ? error * error : 0, &l->state, &report));
-  PetscCall(PetscInfo(NULL, "unstable equilibrium: %s\n", report.converged ? "another was found" : report.neutral ? "neutral" : report.reason));
+  PetscCall(SolverStabilise(l->solver, &l->state, &report));
+  PetscCall(PetscInfo(NULL, "unstable equilibrium: %s\n", report.converged ? "another was found" : report.reason));
   if (report.converged) PetscCall(PathRefuse(p, from, &report, &words));
   *changed         = (PetscBool)(report.converged && report.unstable == 0 && !words);
   report.converged = *changed;
@@ -60,14 +59,15 @@ PetscErrorCode PathStabilise(Path *p, PetscReal error, PetscBool *changed)
   if (*changed) {
     p->unstable_now = PETSC_FALSE;
     if (p->stabilised++ == 0)
-      PetscCall(
-          PetscPrintf(ForestComm(l->forest),
-                      "note: the equilibrium found at t = %g is unstable; a stable one takes its place, there and where that happens again (load.stable); "
-                      "along the mode energy falls by %.2g %% of the strain energy\n",
-                      (double)l->state.t, (double)(100 * report.fall)));
-  } else
+      PetscCall(PetscPrintf(
+          ForestComm(l->forest),
+          "note: the equilibrium found at t = %g is unstable; a stable one takes its place, there and where that happens again (load.stable); "
+          "along the mode energy falls by %.2g %% of the strain energy; less than the mesh is off, as of a round body free to turn, means nothing\n",
+          (double)l->state.t, (double)(100 * report.fall)));
+  } else {
     PetscCall(Keep_Private(l, &unstable));
-  if (report.neutral) p->unstable_now = PETSC_FALSE;
+    p->unstable_now = (PetscBool)!report.neutral;
+  }
   PetscCall(StateDestroy(&unstable));
   PetscCall(PetscFree(from));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -380,7 +380,7 @@ static PetscErrorCode Finish_Private(Descent *d, State *state)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode DescentRun_Private(Solver s, DescentStart start, PetscReal resolution, const char *reason, State *state, SolverReport *report)
+PetscErrorCode DescentRun_Private(Solver s, DescentStart start, const char *reason, State *state, SolverReport *report)
 {
   Descent   d;
   PetscBool ok;
@@ -391,11 +391,11 @@ PetscErrorCode DescentRun_Private(Solver s, DescentStart start, PetscReal resolu
   report->unstable = -1;
   PetscCall(ProblemSetState(s->problem, state));
   PetscCall(DescentCreate_Private(s, report, &d));
-  d.resolution = resolution;
   PetscCall(VecCopy(state->x, d.lambda));
   PetscCall(start(&d, state->x, &ok));
   if (ok) PetscCall(Finish_Private(&d, state));
-  report->fall = d.fall;
+  report->fall    = d.fall;
+  report->neutral = d.neutral;
   PetscCall(DescentDestroy_Private(&d));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -403,6 +403,6 @@ PetscErrorCode DescentRun_Private(Solver s, DescentStart start, PetscReal resolu
 PetscErrorCode SolverDescend(Solver s, State *state, SolverReport *report)
 {
   PetscFunctionBegin;
-  PetscCall(DescentRun_Private(s, Move_Private, 0, "no descent leads to an equilibrium", state, report));
+  PetscCall(DescentRun_Private(s, Move_Private, "no descent leads to an equilibrium", state, report));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -163,7 +163,7 @@ typedef struct {
   PetscReal     added;                                    /* to the matrix */
   PetscReal     merit;                                    /* at the iterate */
   PetscReal     fall;                                     /* of the energy, along the lowest eigenvector, in strain energies (stable.c) */
-  PetscReal     resolution;                               /* of the energy, in strain energies: what falls by less along it is neutral (stable.c) */
+  PetscBool     neutral;                                  /* the equilibrium at the start (stable.c) */
   PetscReal     round_off;                                /* of Phi: a smaller decrease is none; terms as many as unknowns */
   ProblemStatus status;
   SolverReport *report;
@@ -183,7 +183,7 @@ PetscErrorCode DescentSearch_Private(Descent *, Vec x, PetscReal slope, PetscBoo
 PetscErrorCode DescentTry_Private(Descent *, Vec x, PetscReal step, PetscReal *merit);
 /* A start, which moves x; down from there, and to a solution of the exact problem. The report says whether, else reason. */
 typedef PetscErrorCode (*DescentStart)(Descent *, Vec x, PetscBool *ok);
-PetscErrorCode DescentRun_Private(Solver, DescentStart, PetscReal resolution, const char *reason, State *, SolverReport *);
+PetscErrorCode DescentRun_Private(Solver, DescentStart, const char *reason, State *, SolverReport *);
 
 /* saddle.c: iterative solution of the tangent, in its symmetric form or not. */
 PetscErrorCode SaddleCreate_Private(Problem, MultigridKind, Saddle *);

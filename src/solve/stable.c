@@ -1,9 +1,8 @@
 /* From an unstable equilibrium to a stable one. The inertia of its tangent tells that it is unstable (inertia.c); Newton's method finds it as it finds others,
-   and a body that buckles would stay straight. Where nothing falls along the eigenvector of the lowest eigenvalue but what the mesh is off, as of a round body
-   free to turn, whose energy is that of its facets, or by round-off where it is free to slide, the equilibrium is neutral, and stays. Else along the
-   eigenvector of the lowest eigenvalue the energy falls to both sides: down on the side that is lower, and from there to a minimum (descent.c). The start of
-   the iteration for the eigenvector is a function of the reference positions, so that the side is the same on any number of ranks where both are equal, as for
-   a body that may buckle either way. */
+   and a body that buckles would stay straight. Along the eigenvector of the lowest eigenvalue the energy falls to both sides: down on the side that is lower,
+   and from there to a minimum (descent.c). The start of the iteration for the eigenvector is a function of the reference positions, so that the side is the
+   same on any number of ranks where both are equal, as for a body that may buckle either way. Where that eigenvalue is not below zero but by round-off, as of a
+   body that is free to slide or turn, or nothing is strained, the equilibrium is neutral and not unstable. */
 #include "solveimpl.h"
 
 #define ITERATIONS 30 /* inverse ones, with one factor */
@@ -28,8 +27,8 @@ static PetscErrorCode Start_Private(Descent *d)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* (H + shift D) y = D v, again and again: dx is the eigenvector of the lowest eigenvalue of H against D, *curvature = dx . H dx, of the displacements that the
-   matrix knows. The factor is there. */
+/* (H + shift D) y = D v, again and again: dx is the eigenvector of the lowest eigenvalue of H against D, which is as large as the rows' entries, *curvature =
+   dx . H dx, of the displacements that the matrix knows, 0 where it is round-off of H. The factor is there. */
 static PetscErrorCode Lowest_Private(Descent *d, PetscReal *curvature, PetscBool *ok)
 {
   PetscReal theta = 0, norm2, product;
@@ -49,8 +48,11 @@ static PetscErrorCode Lowest_Private(Descent *d, PetscReal *curvature, PetscBool
     PetscCall(VecDot(d->rhs, d->y, &product));
     theta = product / norm2;
   }
-  *curvature = (theta - d->shift) * norm2;
-  PetscCall(PetscInfo(d->ksp, "lowest eigenvalue %g, shift %g\n", (double)(theta - d->shift), (double)d->shift));
+  const PetscReal lowest = theta - d->shift;
+  PetscInt        order;
+  PetscCall(VecGetSize(d->y, &order));
+  *curvature = PetscAbsReal(lowest) > PETSC_MACHINE_EPSILON * (PetscReal)order ? lowest * norm2 : 0; /* as the rank of a matrix is told in floating point */
+  PetscCall(PetscInfo(d->ksp, "lowest eigenvalue %g, shift %g\n", (double)lowest, (double)d->shift));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -81,28 +83,27 @@ static PetscErrorCode Leave_Private(Descent *d, Vec x, PetscBool *ok)
   PetscCall(DescentLinearise_Private(d, x, &done, ok));
   if (!*ok) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(DescentDirection_Private(d, &slope, ok));
-  d->report->neutral = (PetscBool)(*ok && d->shift == 0);
-  *ok                = (PetscBool)(*ok && d->shift > 0 && d->added == d->shift);
+  d->neutral = (PetscBool)(*ok && d->shift == 0);
+  *ok        = (PetscBool)(*ok && d->shift > 0 && d->added == d->shift);
   if (!*ok) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(Lowest_Private(d, &curvature, ok));
-  d->report->neutral = (PetscBool)(*ok && curvature >= 0);
-  *ok                = (PetscBool)(*ok && curvature < 0);
+  d->neutral = (PetscBool)(*ok && (curvature >= 0 || d->status.energy <= 0));
+  *ok        = (PetscBool)(*ok && !d->neutral);
   if (!*ok) PetscFunctionReturn(PETSC_SUCCESS);
   first = PetscSqrtReal(-2 * PETSC_SQRT_MACHINE_EPSILON * d->status.energy / curvature);
   for (PetscInt k = 0; k < 2; ++k) PetscCall(Side_Private(d, x, k ? -first : first, &step[k], &merit[k]));
   const PetscInt k = merit[1] < merit[0] - ROUND_LENGTH * PetscAbsReal(d->merit - merit[0]) ? 1 : 0;
   PetscCall(PetscInfo(d->ksp, "energy falls by %g at %g, by %g at %g\n", (double)(d->merit - merit[0]), (double)step[0], (double)(d->merit - merit[1]),
                       (double)step[1]));
-  d->fall            = (d->merit - merit[k]) / d->status.energy;
-  d->report->neutral = (PetscBool)(d->fall <= d->resolution);
-  *ok                = (PetscBool)(step[k] != 0 && !d->report->neutral);
+  *ok     = (PetscBool)(step[k] != 0);
+  d->fall = (d->merit - merit[k]) / d->status.energy;
   PetscCall(VecAXPY(x, step[k], d->dx));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SolverStabilise(Solver s, PetscReal resolution, State *state, SolverReport *report)
+PetscErrorCode SolverStabilise(Solver s, State *state, SolverReport *report)
 {
   PetscFunctionBegin;
-  PetscCall(DescentRun_Private(s, Leave_Private, resolution, "no stable equilibrium was found", state, report));
+  PetscCall(DescentRun_Private(s, Leave_Private, "no stable equilibrium was found", state, report));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

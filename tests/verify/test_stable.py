@@ -48,50 +48,58 @@ ADAPTED = ("-adapt_tolerance", 1e-6, "-adapt_max_passes", 2)
 
 
 DISC = """
-DefineConstant[hill = 0]; // 1: the floor is round
 s = 0.12; Point(1) = {0, 0, 0, s}; Point(2) = {0.5, 0, 0, s}; Point(3) = {0, 0.5, 0, s}; Point(4) = {-0.5, 0, 0, s}; Point(5) = {0, -0.5, 0, s};
 Circle(1) = {2, 1, 3}; Circle(2) = {3, 1, 4}; Circle(3) = {4, 1, 5}; Circle(4) = {5, 1, 2}; Curve Loop(1) = {1:4}; Plane Surface(1) = {1};
 Point(11) = {-0.8, 0.505, 0, s}; Point(12) = {0.8, 0.505, 0, s}; Point(13) = {0.8, 0.8, 0, s}; Point(14) = {-0.8, 0.8, 0, s};
-y = hill ? -1.755 + Sqrt(1.25^2 - 0.8^2) : -0.505; Point(21) = {-0.8, y, 0, s}; Point(22) = {0.8, y, 0, s}; Point(23) = {0.8, -1.2, 0, s}; Point(24) = {-0.8, -1.2, 0, s};
+Point(21) = {-0.8, -0.505, 0, s}; Point(22) = {0.8, -0.505, 0, s}; Point(23) = {0.8, -0.8, 0, s}; Point(24) = {-0.8, -0.8, 0, s};
 For i In {0:3}
-  Line(11 + i) = {11 + i, 11 + (i + 1) % 4};
+  Line(11 + i) = {11 + i, 11 + (i + 1) % 4}; Line(21 + i) = {21 + i, 21 + (i + 1) % 4};
 EndFor
-Line(22) = {22, 23}; Line(23) = {23, 24}; Line(24) = {24, 21};
-If (hill)
-  Point(25) = {0, -1.755, 0, s}; Circle(21) = {21, 25, 22};
-Else
-  Line(21) = {21, 22};
-EndIf
 Curve Loop(2) = {11:14}; Plane Surface(2) = {2}; Curve Loop(3) = {21:24}; Plane Surface(3) = {3};
 Physical Surface("disc") = {1}; Physical Surface("lid") = {2}; Physical Surface("floor") = {3};
 Physical Curve("rim") = {1:4}; Physical Curve("above") = {11}; Physical Curve("below") = {21};
 """
 
 
-def pressed(run, tmp_path, *options):
-    (tmp_path / "disc.geo").write_text(DISC)
-    return solved(run, json.dumps({"mesh": {"file": "disc.geo", "order": 2}, "model": "plane_strain", "order": 2, "output": {"fields": False},
-                                   "body": {"disc": {"material": "m"}, "lid": {"material": "r", "motion": {"y": "-0.1*t"}}, "floor": {"material": "r"}},
-                                   "material": {"m": {"law": "neo_hookean", "E": 1, "nu": 0.3}, "r": {"law": "rigid"}}, "load": {"step": 0.25},
-                                   "contact": {"a": {"nonmortar": "rim", "mortar": "above"}, "b": {"nonmortar": "rim", "mortar": "below"}}}), *options)
-
-
-def test_free_to_turn(run, tmp_path):
-    """A disc between plates, free to turn and to slide: only its facets say that it is to turn, by less than the energy is off. It stays, and nothing is unstable."""
-    disc = pressed(run, tmp_path)
-    assert "unstable" not in disc.stdout and disc.summary["stabilised"] == disc.summary["unstable_equilibria"] == 0, disc
-
-
-def test_free_on_a_hill(run, tmp_path):
-    """The same disc on a round floor: as it moves aside the energy falls by much, and no facets are why."""
-    disc = pressed(run, tmp_path, "-mesh_parameter_hill", 1)
-    assert disc.summary["unstable_equilibria"] + disc.summary["stabilised"] > 0 and "unstable" in disc.stdout, disc
+def fall(result):
+    """Of the energy along the mode, in percent."""
+    return float(re.search(r"energy falls by (\S+) % of the strain energy", result.stdout).group(1))
 
 
 def test_fall_of_the_energy(run, tmp_path):
-    """Of a column that buckles some percent along the mode."""
+    """Of a column that buckles some percent along the mode. Of a disc between plates, whose mesh alone says that it is to turn, less than what its
+    error leaves room for, 3.4 % in the energy norm."""
+    (tmp_path / "disc.geo").write_text(DISC)
+    disc = solved(run, json.dumps({"mesh": {"file": "disc.geo", "order": 2}, "model": "plane_strain", "order": 2, "output": {"fields": False},
+                                   "body": {"disc": {"material": "m"}, "lid": {"material": "r", "motion": {"y": "-0.1*t"}}, "floor": {"material": "r"}},
+                                   "material": {"m": {"law": "neo_hookean", "E": 1, "nu": 0.3}, "r": {"law": "rigid"}}, "load": {"step": 0.25},
+                                   "contact": {"a": {"nonmortar": "rim", "mortar": "above"}, "b": {"nonmortar": "rim", "mortar": "below"}}}))
     buckled = solved(run, column(tmp_path, 3 * EULER, 1))
-    assert float(re.search(r"energy falls by (\S+) % of the strain energy", buckled.stdout).group(1)) > 1, buckled
+    print("fall, %", fall(disc), fall(buckled))
+    assert 0 < fall(disc) < 100 * 0.034**2 and fall(buckled) > 1
+
+
+CUBE = """
+SetFactory("OpenCASCADE");
+Box(1) = {0, 0, 0, 1, 1, 1}; Box(2) = {-1, -1, -1.01, 3, 3, 1}; Box(3) = {-1, -1, 1.01, 3, 3, 1};
+Transfinite Curve{:} = 3; Transfinite Surface{:}; Recombine Surface{:}; Transfinite Volume{:};
+Physical Volume("cube") = {1}; Physical Volume("floor") = {2}; Physical Volume("lid") = {3};
+Physical Surface("under") = {5}; Physical Surface("over") = {6}; Physical Surface("below") = {12}; Physical Surface("above") = {17};
+"""
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_free_cube(run, tmp_path, ranks):
+    """Squeezed between two plates, free to slide and turn along them: the same uniform state in steps of any size, and round-off of neutral modes makes none of them unstable."""
+    (tmp_path / "cube.geo").write_text(CUBE)
+    text = json.dumps({"mesh": {"file": "cube.geo", "order": 1}, "model": "3d", "order": 2, "output": {"fields": False},
+                       "body": {"cube": {"material": "m"}, "lid": {"material": "r", "motion": {"z": "-0.22*t"}}, "floor": {"material": "r"}},
+                       "material": {"m": {"law": "neo_hookean", "E": 1, "nu": 0.49}, "r": {"law": "rigid"}},
+                       "contact": {"a": {"nonmortar": "over", "mortar": "above"}, "b": {"nonmortar": "under", "mortar": "below"}}})
+    results = [solved(run, text, "-load_step", step, ranks=ranks) for step in (0.25, 0.34, 0.5, 1)]
+    for result in results:
+        assert "unstable" not in result.stdout and result.summary["unstable_equilibria"] in (0, None), result
+        assert result.summary["energy"] == pytest.approx(results[0].summary["energy"], rel=1e-9)
 
 
 @pytest.mark.parametrize("repeat", ["step", "path"])
