@@ -141,14 +141,18 @@ static PetscErrorCode Number_Private(Numbers *n, const char *prefix, PetscInt in
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Everything a run counts, but for its times. */
+/* Everything a run counts, but for its times. Steps go on as they are, unless the scene asks for others now. */
 static PetscErrorCode Numbers_Private(App *app, Numbers *n)
 {
+  PetscReal asked = app->data->load.step;
+
   PetscFunctionBegin;
   for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(Counters); ++i)
     PetscCall(Number_Private(n, "", -1, Counters[i].name, (PetscInt *)(void *)((char *)app + Counters[i].at), NULL));
   for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(Reals); ++i)
     PetscCall(Number_Private(n, "", -1, Reals[i].name, NULL, (PetscReal *)(void *)((char *)app + Reals[i].at)));
+  PetscCall(Number_Private(n, "", -1, "load_step", NULL, &asked));
+  if (asked != app->data->load.step) app->dt = app->data->load.step;
   for (PetscInt i = 0; i < app->data->num_contacts; ++i) PetscCall(Number_Private(n, "subdivided.", i, "", &app->subdivided[i], NULL));
   for (PetscInt i = 0; i < app->data->num_contacts; ++i) PetscCall(Number_Private(n, "touched.", i, "", &app->touched[i], NULL));
   for (PetscInt i = 0; i < SolverNumModifiers(); ++i) PetscCall(Number_Private(n, "modifier.", -1, SolverModifierName(i), &app->path.modifiers[i], NULL));

@@ -212,6 +212,15 @@ def test_o102_nothing_left_to_do(run):
     assert [time for time, _ in moved.states()] == pytest.approx([1.25], abs=1e-4)
 
 
+@pytest.mark.parametrize("step, times", [(0.05, [0.125, 0.2375]), (0.1, [0.15, 0.3]), (0.02, [0.07, 0.1])])
+def test_another_load_step(run, step, times):
+    """Steps go on as they were, grown by half after an easy one, or in the length that is asked for now, a longer one, too."""
+    options = ("-order", 1, "-adapt_tolerance", 0, "-load_step_max", 0.2, "-output_fields", "false")
+    first = run("inputs/hertz2d.yml", *options, "-load_step", 0.05, "-load_max_steps", 1, "-load_end", 0.1)
+    second = run("inputs/hertz2d.yml", *options, "-load_step", step, "-load_max_steps", 3, "-restart", first.directory / "checkpoint.h5")
+    assert [row["t"] for row in second.history] == pytest.approx(times)
+
+
 @pytest.mark.parametrize("options", [("-order", 1), ("-order", 1, "-adapt_tolerance", 0), ("-order", 3)])
 def test_another_order(run, options):
     """Cells keep the orders of the checkpoint, in fields as well: one that is lower in the scene ended the run with a signal."""
