@@ -239,11 +239,11 @@ PetscErrorCode InterfaceFindWide(Interface, uint64_t *pairs);
    the change of the multipliers there is taken as one of forces. changed: there was one. Collective. */
 void           InterfaceKeepWeights(Interface);
 PetscErrorCode InterfaceCarryForces(Interface, Vec dx, PetscBool *changed);
-/* corner.c: sharp corners of mortar sides that press within a facet of the nonmortar side, or at a node of it, while nothing beside them does: the side with
-   the corner is the better one to carry the multipliers. In the plane. */
+/* corner.c: sharp corners (in space the ends of sharp edges) of mortar sides that press within facets of the nonmortar side, or at nodes of it, while nothing
+   beside them does: the side with the corner is the better one to carry the multipliers. */
 typedef struct {
   PetscInt  pair;   /* ContactSpec.pair */
-  PetscInt  splits; /* of facets at the corner, until they are less than twice as long as that facet */
+  PetscInt  splits; /* of facets at the corner, until they are less than twice as long as those that it presses on */
   PetscReal X[3];   /* reference position */
 } InterfaceCorner;
 /* At the last evaluation; near: also those that are about to, off by less than a tenth of the facet. Freed by the caller. Collective. */

@@ -1,189 +1,261 @@
-/* Sharp corners of the mortar side that press within a facet of the nonmortar side, or at a node of it alone, in the plane. Gaps to both sides of such a corner
-   open away from it and are weighted with functions that are fixed to the facet, so that the corner rides over bumps whose slope is that of the gaps, at any
-   size of facets. The side of the corner has a node there, and is the better one to carry the multipliers (theory, 5, roles). */
+/* Sharp corners (plane) and edges (space) of the mortar side that press within facets of the nonmortar side, or at nodes of it alone. Gaps to both sides of
+   such an edge open away from it and are weighted with functions that are fixed to the facets, so that the edge rides over bumps whose slope is that of the
+   gaps, at any size of facets. The side of the edge has nodes there, and is the better one to carry the multipliers (theory, 5, roles). */
 #include "interfaceimpl.h"
 
-#define ENDS 2 /* of the mortar facets at a corner: that of the facet before it, and of the one after */
-
-/* A corner: nonmortar facet that faces either end, -1: it faces nothing; how the mortar facet slants to it (sine of the angle); is the corner inside? */
+/* Two facets of the mortar side that meet, in the plane at a node, in space along an edge, and where on each (Ends_Private); ends: its first and last node. */
 typedef struct {
-  PetscReal facet[ENDS], slant[ENDS], inside;
+  PetscInt facet[2], place[2], ends[2];
+} Edge;
+
+/* What it faces, as all ranks know: 1 or 0, and how long the facets are (plane: length; space: root of the area) that it presses on. */
+typedef struct {
+  PetscReal flat, inside, presses, length;
 } Seen;
 
-/* What presses there: nodes of the facet that the corner lies in, or of the two that it lies between; and nodes of those beside. */
+static PetscInt Places_Private(const Surface *s)
+{
+  return s->dim == 2 ? 2 : 4;
+}
+
+/* The nodes at an end of a facet of the plane, or along one of its four edges. */
+static void Ends_Private(const Surface *s, PetscInt facet, PetscInt place, PetscInt ends[2])
+{
+  const PetscInt *v = s->facets + s->corners * facet;
+
+  ends[0] = v[place];
+  ends[1] = s->dim == 2 ? v[place] : v[(place + 1) % 4];
+}
+
+/* Is a corner of a segment at this place of its mortar facet? In space segments are cut along directions that vary: that near to it. */
+static PetscBool IsOn_Private(PetscInt dim, const ContactSegment *e, PetscInt corner, PetscInt place)
+{
+  const PetscInt  axis = dim == 2 ? 0 : (place + 1) % 2;
+  const PetscReal end  = dim == 2 ? (place ? 1 : -1) : (place == 0 || place == 3 ? -1 : 1);
+
+  return (PetscBool)(PetscAbsReal(e->eta[corner][axis] - end) <= (dim == 2 ? CONTACT_ROUND : CONTACT_SLIVER));
+}
+
+/* Does it reach it, with an end or along an edge? */
+static PetscBool Reaches_Private(PetscInt dim, const ContactSegment *e, PetscInt place)
+{
+  PetscInt on = 0;
+
+  for (PetscInt k = 0; k < e->num; ++k) on += IsOn_Private(dim, e, k, place);
+  return (PetscBool)(on >= dim - 1);
+}
+
+static PetscReal Length_Private(const Surface *s, PetscInt facet)
+{
+  const PetscReal measure = SurfaceMeasure_Private(s, s->X, facet);
+  return s->dim == 2 ? measure : PetscSqrtReal(measure);
+}
+
+/* Do two facets meet at a convex angle of more than 40 degrees at the reference positions? */
+static PetscBool IsSharp_Private(const Surface *s, const Edge *e)
+{
+  PetscReal N[2][3], out = 0;
+
+  for (PetscInt k = 0; k < 2; ++k) ContactFacetVector(s->dim, s->X, s->facets + s->corners * e->facet[k], N[k]);
+  for (PetscInt k = 0; k < s->corners; ++k)
+    for (PetscInt d = 0; d < s->dim; ++d) out += N[0][d] * (s->X[s->dim * s->facets[s->corners * e->facet[1] + k] + d] - s->X[s->dim * e->ends[0] + d]);
+  return (PetscBool)(out < 0 && Dot3(N[0], N[1]) < CONTACT_SHARP * PetscSqrtReal(Dot3(N[0], N[0]) * Dot3(N[1], N[1])));
+}
+
+/* A place of a facet, for pairs of them to be found. */
 typedef struct {
-  PetscReal there, beside;
-} Pressed;
+  PetscInt least, most, facet, place;
+} Half;
 
-/* The facets of an outline that end and begin at each of its corners; -1: there is none. */
-static void Neighbours_Private(const Surface *s, PetscInt before[], PetscInt after[])
+static int CompareHalves_Private(const void *a, const void *b)
 {
-  for (PetscInt n = 0; n < s->num_nodes; ++n) before[n] = after[n] = -1;
-  for (PetscInt f = 0; f < s->num_facets; ++f) {
-    after[s->facets[2 * f]]      = f;
-    before[s->facets[2 * f + 1]] = f;
+  const Half *x = a, *y = b;
+
+  if (x->least != y->least) return x->least < y->least ? -1 : 1;
+  if (x->most != y->most) return x->most < y->most ? -1 : 1;
+  return x->facet < y->facet ? -1 : x->facet > y->facet;
+}
+
+/* The sharp edges of a surface, where exactly two facets meet, and at[facet][place]: their numbers, -1. (Edges that hang are none.) */
+static PetscErrorCode Edges_Private(const Surface *s, PetscInt *num, Edge edge[], PetscInt at[])
+{
+  const PetscInt places = Places_Private(s), halves = places * s->num_facets;
+  Half          *half;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(halves, &half));
+  for (PetscInt i = 0; i < halves; ++i) {
+    PetscInt ends[2];
+    Ends_Private(s, i / places, i % places, ends);
+    half[i] = (Half){PetscMin(ends[0], ends[1]), PetscMax(ends[0], ends[1]), i / places, i % places};
+    at[i]   = -1;
+  }
+  qsort(half, (size_t)halves, sizeof(Half), CompareHalves_Private);
+  *num = 0;
+  for (PetscInt i = 0, end; i < halves; i = end) {
+    for (end = i + 1; end < halves && half[end].least == half[i].least && half[end].most == half[i].most;) ++end;
+    if (end != i + 2) continue;
+    const Edge e = {{half[i].facet, half[i + 1].facet}, {half[i].place, half[i + 1].place}, {half[i].least, half[i].most}};
+    if (!IsSharp_Private(s, &e)) continue;
+    for (PetscInt k = 0; k < 2; ++k) at[places * e.facet[k] + e.place[k]] = *num;
+    edge[(*num)++] = e;
+  }
+  PetscCall(PetscFree(half));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Where the segment has this corner: position of a facet of a side. */
+static void Point_Private(const Surface *s, PetscInt facet, const PetscReal xi[2], PetscReal x[3])
+{
+  const PetscInt *on, num = SurfaceNodes_Private(s, facet, &on);
+  PetscReal       shape[SURFACE_MOST_NODES];
+
+  SurfaceShape(s->dim, s->order[facet], xi, shape, NULL);
+  for (PetscInt d = 0; d < 3; ++d) {
+    x[d] = 0;
+    for (PetscInt k = 0; k < num && d < s->dim; ++k) x[d] += shape[k] * s->x[s->dim * on[k] + d];
   }
 }
 
-/* Of the angle from one vector to another one. */
-static void Angle_Private(const PetscReal a[3], const PetscReal b[3], PetscReal *cosine, PetscReal *sine)
+/* Is a corner of the segment inside the other body, or off by less than a share of the facet's length? Where an edge is a little within a facet, no mean of
+   gaps may be closed yet. */
+static PetscBool IsInside_Private(const Contact *c, const ContactSegment *e, PetscInt corner, const PetscReal N[3], PetscReal slack)
 {
-  const PetscReal size = PetscSqrtReal(Dot3(a, a) * Dot3(b, b));
+  PetscReal x[2][3], gap = 0;
 
-  *cosine = Dot3(a, b) / size;
-  *sine   = (a[0] * b[1] - a[1] * b[0]) / size;
+  Point_Private(&c->side[0], e->facet, e->xi[corner], x[0]);
+  Point_Private(&c->side[1], e->mortar_facet, e->eta[corner], x[1]);
+  for (PetscInt d = 0; d < 3; ++d) gap += N[d] * (x[1][d] - x[0][d]);
+  return (PetscBool)(gap < slack * PetscSqrtReal(Dot3(N, N)) * Length_Private(&c->side[0], e->facet));
 }
 
-/* Convex, by more than 40 degrees at the reference positions. */
-static PetscBool IsCorner_Private(const Surface *s, PetscInt before, PetscInt after)
+/* One segment that reaches an edge. */
+static void Look_Private(const Contact *c, const ContactSegment *e, PetscInt place, PetscReal slack, Seen *seen)
 {
-  PetscReal a[3], b[3], cosine, sine;
+  const Surface *s = &c->side[0], *m = &c->side[1];
+  PetscReal      N[3], M[3], across[3];
 
-  if (before < 0 || after < 0) return PETSC_FALSE;
-  ContactFacetVector(2, s->X, s->facets + 2 * before, a);
-  ContactFacetVector(2, s->X, s->facets + 2 * after, b);
-  Angle_Private(a, b, &cosine, &sine);
-  return (PetscBool)(sine > 0 && cosine < CONTACT_SHARP);
+  ContactFacetVector(s->dim, s->x, s->facets + s->corners * e->facet, N);
+  ContactFacetVector(m->dim, m->x, m->facets + m->corners * e->mortar_facet, M);
+  Cross3(N, M, across);
+  if (Dot3(across, across) <= PetscSqr(CONTACT_SLIVER) * Dot3(N, N) * Dot3(M, M)) seen->flat = 1;
+  seen->length = PetscMax(seen->length, Length_Private(s, e->facet));
+  for (PetscInt k = 0; k < e->num; ++k)
+    if (IsOn_Private(s->dim, e, k, place) && IsInside_Private(c, e, k, N, slack)) seen->inside = 1;
 }
 
-/* Does a node of facet f press, but for those that it shares with facet `but` (-1: none)? */
-static PetscBool Presses_Private(const Contact *c, PetscInt f, PetscInt but)
+static PetscBool IsPressed_Private(const Contact *c, PetscInt node)
 {
-  const Surface  *s = &c->side[0];
-  const PetscInt *node, *other = NULL, num = SurfaceNodes_Private(s, f, &node), others = but < 0 ? 0 : SurfaceNodes_Private(s, but, &other);
-
-  for (PetscInt k = 0; k < num; ++k) {
-    PetscBool shared = PETSC_FALSE;
-    for (PetscInt i = 0; i < others; ++i) shared = (PetscBool)(shared || other[i] == node[k]);
-    if (!shared && c->has_multiplier[node[k]] && c->valued[node[k]] && c->active[node[k]]) return PETSC_TRUE;
-  }
-  return PETSC_FALSE;
+  return (PetscBool)(c->has_multiplier[node] && c->valued[node] && c->active[node]);
 }
 
-/* Is the corner inside the other body, or off by less than a share of the facet's length? Where it is a little within a facet, no mean of gaps may be closed
-   yet. */
-static PetscBool IsInside_Private(const Contact *c, const ContactSegment *e, PetscInt end, const PetscReal N[3], PetscReal slack)
+/* The facet is one of those that the edge faces. */
+static void Mark_Private(const Contact *c, PetscInt facet, Seen *seen, int8_t mark[])
 {
-  const Surface  *s = &c->side[0], *m = &c->side[1];
-  const PetscInt *node, num = SurfaceNodes_Private(s, e->facet, &node), corner = m->facets[2 * e->mortar_facet + (e->eta[end][0] > 0)];
-  PetscReal       shape[SURFACE_MOST_NODES], gap = 0;
+  const PetscInt *node, num = SurfaceNodes_Private(&c->side[0], facet, &node);
 
-  SurfaceShape(2, s->order[e->facet], e->xi[end], shape, NULL);
-  for (PetscInt d = 0; d < 2; ++d) {
-    PetscReal x = 0;
-    for (PetscInt k = 0; k < num; ++k) x += shape[k] * s->x[2 * node[k] + d];
-    gap += N[d] * (m->x[2 * corner + d] - x);
-  }
-  return (PetscBool)(gap < slack * Dot3(N, N));
+  mark[facet] = 1;
+  for (PetscInt k = 0; k < num; ++k)
+    if (IsPressed_Private(c, node[k])) seen->presses = 1;
 }
 
-/* One end of a segment lies at a corner. */
-static void Look_Private(const Contact *c, const ContactSegment *e, PetscInt at, PetscReal slack, Seen *seen)
+/* Visits the segments of this rank's facets that reach an edge: what they tell of it, or (mark) which facets it faces if none of its own lies flat there. */
+static PetscErrorCode Segments_Private(const Contact *c, PetscReal slack, const PetscInt at[], Seen seen[], int8_t mark[])
 {
-  const PetscInt end = e->eta[at][0] > 0 ? 0 : 1; /* the facet before the corner ends there */
-  PetscReal      N[3], M[3], cosine, sine;
-
-  ContactFacetVector(2, c->side[0].x, c->side[0].facets + 2 * e->facet, N);
-  ContactFacetVector(2, c->side[1].x, c->side[1].facets + 2 * e->mortar_facet, M);
-  Angle_Private(N, M, &cosine, &sine);
-  seen->facet[end] = (PetscReal)e->facet;
-  seen->slant[end] = PetscAbsReal(sine);
-  if (IsInside_Private(c, e, at, N, slack)) seen->inside = 1;
-}
-
-/* What the segments of this rank's facets tell of the corners, seen[corner[mortar node]]. */
-static PetscErrorCode Segments_Private(const Contact *c, PetscReal slack, const PetscInt corner[], Seen seen[])
-{
+  const PetscInt        places = Places_Private(&c->side[1]);
   const ContactSegment *e;
   PetscInt              num;
 
   PetscFunctionBegin;
   ContactPairGetSegments(c->pair, &num, &e);
   for (PetscInt i = 0; i < num; ++i)
-    for (PetscInt k = 0; k < 2; ++k) {
-      const PetscReal eta  = e[i].eta[k][0];
-      const PetscInt  node = c->side[1].facets[2 * e[i].mortar_facet + (eta > 0)];
-      if (PetscAbsReal(eta) < 1 - CONTACT_ROUND || corner[node] < 0) continue;
-      Look_Private(c, &e[i], k, slack, &seen[corner[node]]);
+    for (PetscInt k = 0; k < places; ++k) {
+      const PetscInt edge = at[places * e[i].mortar_facet + k];
+      if (edge < 0 || !Reaches_Private(c->side[1].dim, &e[i], k)) continue;
+      if (!mark)
+        Look_Private(c, &e[i], k, slack, &seen[edge]);
+      else if (seen[edge].flat <= 0)
+        Mark_Private(c, e[i].facet, &seen[edge], mark);
     }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The facet that the corner lies in, first and last, or the two that it lies between; false: it faces nothing, or facets that are apart. */
-static PetscBool Region_Private(const Surface *s, const PetscInt after[], const Seen *at, PetscInt *first, PetscInt *last)
-{
-  const PetscInt facet[ENDS] = {(PetscInt)at->facet[0], (PetscInt)at->facet[1]};
-  const PetscInt k           = facet[0] < 0 || (facet[1] >= 0 && after[s->facets[2 * facet[0] + 1]] != facet[1]); /* the first */
-
-  *first = facet[k];
-  *last  = facet[1 - k] < 0 ? facet[k] : facet[1 - k];
-  return (PetscBool)(*first >= 0 && (*first == *last || after[s->facets[2 * *first + 1]] == *last));
-}
-
-/* What presses of one part, as far as this rank knows. */
-static void Press_Private(const Contact *c, const PetscInt before[], const PetscInt after[], const Seen *at, Pressed *pressed)
+/* Do nodes of facets beside the marked ones press, as far as this rank knows, those that have a node in common with these? */
+static PetscErrorCode Beside_Private(const Contact *c, const int8_t mark[], PetscBool *pressed)
 {
   const Surface *s = &c->side[0];
-  PetscInt       first, last;
+  int8_t        *of; /* [node] of a marked facet 2, of one beside 1 */
 
-  if (!Region_Private(s, after, at, &first, &last)) return;
-  const PetscInt beyond[2] = {before[s->facets[2 * first]], after[s->facets[2 * last + 1]]};
-  if (Presses_Private(c, first, -1) || Presses_Private(c, last, -1)) pressed->there = 1;
-  if ((beyond[0] >= 0 && Presses_Private(c, beyond[0], first)) || (beyond[1] >= 0 && Presses_Private(c, beyond[1], last))) pressed->beside = 1;
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc1(s->num_nodes, &of));
+  for (PetscInt pass = 0; pass < 2; ++pass)
+    for (PetscInt f = 0; f < s->num_facets; ++f) {
+      const PetscInt *node, num = SurfaceNodes_Private(s, f, &node);
+      PetscBool       beside = PETSC_FALSE;
+      for (PetscInt k = 0; k < num; ++k) beside = (PetscBool)(beside || of[node[k]] == 2);
+      for (PetscInt k = 0; k < num; ++k) {
+        if (pass == 0 && mark[f]) of[node[k]] = 2;
+        if (pass == 1 && beside && !of[node[k]]) of[node[k]] = 1;
+      }
+    }
+  for (PetscInt n = 0; n < s->num_nodes; ++n)
+    if (of[n] == 1 && IsPressed_Private(c, n)) *pressed = PETSC_TRUE;
+  PetscCall(PetscFree(of));
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The corner presses as nothing beside it does, and both its faces turn away from the facet there: what does not face it is upright. */
-static PetscBool IsAlone_Private(const Surface *s, const PetscInt after[], const Seen *at, const Pressed *pressed)
+/* How often the facets at the edge are to be halved so that they are less than twice as long as the facets that it presses on. */
+static PetscInt Splits_Private(const Surface *m, const Edge *edge, PetscReal length)
 {
-  PetscInt first, last;
+  PetscReal longest = PetscMax(Length_Private(m, edge->facet[0]), Length_Private(m, edge->facet[1]));
+  PetscInt  splits  = 0;
 
-  if (pressed->beside > 0 || (pressed->there <= 0 && at->inside <= 0) || !Region_Private(s, after, at, &first, &last)) return PETSC_FALSE;
-  for (PetscInt k = 0; k < ENDS; ++k)
-    if (at->facet[k] >= 0 && at->slant[k] <= CONTACT_SLIVER) return PETSC_FALSE;
-  return PETSC_TRUE;
-}
-
-/* How often the facets at the corner are to be halved so that they are less than twice as long as the facet that it presses on. */
-static PetscInt Splits_Private(const Surface *s, const Surface *m, PetscInt before, PetscInt after, const Seen *at)
-{
-  const PetscReal length  = SurfaceMeasure_Private(s, s->X, (PetscInt)PetscMax(at->facet[0], at->facet[1])) * (2 - ROUND_LENGTH);
-  PetscReal       longest = PetscMax(SurfaceMeasure_Private(m, m->X, before), SurfaceMeasure_Private(m, m->X, after));
-  PetscInt        splits  = 0;
-
-  for (; longest >= length; longest /= 2) ++splits;
+  for (; longest >= length * (2 - ROUND_LENGTH); longest /= 2) ++splits;
   return splits;
 }
 
-/* The parts of one pair, which have the same sides: corners are added to the list. */
+static PetscErrorCode Add_Private(const Contact *c, const Edge *edge, PetscReal length, PetscInt *num, InterfaceCorner **list)
+{
+  const Surface *m      = &c->side[1];
+  PetscInt       room   = *num;
+  const PetscInt splits = Splits_Private(m, edge, length);
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < m->dim - 1; ++k) {
+    PetscCall(ArrayGrow(*num + 1, sizeof(**list), &room, list));
+    (*list)[*num] = (InterfaceCorner){.pair = c->spec->pair, .splits = splits};
+    for (PetscInt d = 0; d < m->dim; ++d) (*list)[*num].X[d] = m->X[m->dim * edge->ends[k] + d];
+    ++*num;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The parts of one pair, which have the same sides: edges that press are added to the list. */
 static PetscErrorCode Pair_Private(Interface p, PetscReal slack, PetscInt num_parts, const Contact part[], PetscInt *num, InterfaceCorner **list)
 {
   const Surface *s = &part[0].side[0], *m = &part[0].side[1];
-  PetscInt      *corner, *before[2], *after[2], corners = 0, room = *num;
+  PetscInt       edges, *at;
+  PetscBool      beside = PETSC_FALSE;
+  int8_t        *mark;
+  Edge          *edge;
   Seen          *seen;
-  Pressed       *pressed;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc5(m->num_nodes, &corner, s->num_nodes, &before[0], s->num_nodes, &after[0], m->num_nodes, &before[1], m->num_nodes, &after[1]));
-  for (PetscInt k = 0; k < 2; ++k) Neighbours_Private(&part[0].side[k], before[k], after[k]);
-  for (PetscInt n = 0; n < m->num_nodes; ++n) corner[n] = IsCorner_Private(m, before[1][n], after[1][n]) ? corners++ : -1;
-  PetscCall(PetscMalloc1(corners, &seen));
-  PetscCall(PetscCalloc1(corners, &pressed));
-  for (PetscInt k = 0; k < corners; ++k) seen[k] = (Seen){.facet = {-1, -1}};
-  for (PetscInt i = 0; i < num_parts && corners > 0; ++i) PetscCall(Segments_Private(&part[i], slack, corner, seen));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, seen, (PetscMPIInt)(sizeof(Seen) / sizeof(PetscReal)) * (PetscMPIInt)corners, MPIU_REAL, MPI_MAX, p->comm));
-  for (PetscInt i = 0; i < num_parts; ++i)
-    for (PetscInt k = 0; k < corners; ++k) Press_Private(&part[i], before[0], after[0], &seen[k], &pressed[k]);
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, pressed, 2 * (PetscMPIInt)corners, MPIU_REAL, MPI_MAX, p->comm));
-  for (PetscInt n = 0; n < m->num_nodes; ++n) {
-    if (corner[n] < 0 || !IsAlone_Private(s, after[0], &seen[corner[n]], &pressed[corner[n]])) continue;
-    PetscCall(ArrayGrow(*num + 1, sizeof(**list), &room, list));
-    InterfaceCorner *c = &(*list)[(*num)++];
-    *c                 = (InterfaceCorner){.pair = part[0].spec->pair, .X = {m->X[2 * n], m->X[2 * n + 1], 0}};
-    c->splits          = Splits_Private(s, m, before[1][n], after[1][n], &seen[corner[n]]);
-  }
-  PetscCall(PetscFree(seen));
-  PetscCall(PetscFree(pressed));
-  PetscCall(PetscFree5(corner, before[0], after[0], before[1], after[1]));
+  PetscCall(PetscMalloc2(Places_Private(m) * m->num_facets, &edge, Places_Private(m) * m->num_facets, &at));
+  PetscCall(Edges_Private(m, &edges, edge, at));
+  PetscCall(PetscCalloc2(edges, &seen, s->num_facets, &mark));
+  const PetscMPIInt numbers = (PetscMPIInt)(sizeof(Seen) / sizeof(PetscReal)) * (PetscMPIInt)edges;
+  for (PetscInt i = 0; i < num_parts && edges > 0; ++i) PetscCall(Segments_Private(&part[i], slack, at, seen, NULL));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, seen, numbers, MPIU_REAL, MPI_MAX, p->comm));
+  for (PetscInt i = 0; i < num_parts && edges > 0; ++i) PetscCall(Segments_Private(&part[i], slack, at, seen, mark));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, seen, numbers, MPIU_REAL, MPI_MAX, p->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, mark, (PetscMPIInt)s->num_facets, MPI_SIGNED_CHAR, MPI_MAX, p->comm));
+  for (PetscInt i = 0; i < num_parts; ++i) PetscCall(Beside_Private(&part[i], mark, &beside));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &beside, 1, COMPAT_MPI_BOOL, MPI_LOR, p->comm));
+  for (PetscInt k = 0; k < edges && !beside; ++k)
+    if (seen[k].flat <= 0 && (seen[k].inside > 0 || seen[k].presses > 0)) PetscCall(Add_Private(&part[0], &edge[k], seen[k].length, num, list));
+  PetscCall(PetscFree2(seen, mark));
+  PetscCall(PetscFree2(edge, at));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -192,7 +264,7 @@ PetscErrorCode InterfaceFindCorners(Interface p, PetscBool near, PetscInt *num, 
   PetscFunctionBegin;
   *num     = 0;
   *corners = NULL;
-  for (PetscInt i = 0, end; i < p->num_contacts && p->dim == 2; i = end) {
+  for (PetscInt i = 0, end; i < p->num_contacts; i = end) {
     const ContactSpec *spec = p->contacts[i].spec;
     for (end = i + 1; end < p->num_contacts && p->contacts[end].spec->pair == spec->pair;) ++end;
     if (spec->self || spec->node_to_segment || p->contacts[i].law->ties) continue;

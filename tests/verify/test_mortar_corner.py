@@ -125,3 +125,40 @@ def test_under_forces(run):
     assert force(pressed)[1] == pytest.approx(-0.16, rel=1e-9) and force(moved) == pytest.approx(force(pressed), rel=1e-8)
     for result in (pressed, moved):
         assert max(result.summary["contact"]["c"][key] for key in ("force_imbalance", "moment_imbalance")) < 1e-12
+
+
+# ---- in space -------------------------------------------------------------------------------------------------------------------------
+
+
+def edge_in_space(path, size, layers=1, roles="auto"):
+    """The wedge on the edge of a block between two planes of symmetry, which is plane strain."""
+    (path / "edge.geo").write_text((SCENES / "edge_slope.geo").read_text().split("Physical")[0] + f"""
+e[] = Extrude {{0, 0, 0.3}} {{ Surface{{1}}; Layers{{{layers}}}; Recombine; }}; w[] = Extrude {{0, 0, 0.3}} {{ Surface{{2}}; Layers{{{layers}}}; Recombine; }};
+Physical Volume("block") = {{e[1]}}; Physical Volume("wedge") = {{w[1]}}; Physical Surface("flanks") = {{1, 2, e[0], w[0]}};
+Physical Surface("base") = {{e[2]}}; Physical Surface("top") = {{e[4]}}; Physical Surface("inner") = {{e[5]}};
+Physical Surface("face") = {{w[2]}}; Physical Surface("held") = {{w[4]}};
+""")
+    scene = json.loads(edge(size))
+    scene |= {"mesh": {"file": "edge.geo", "order": 1, "parameter": {"f": size}}, "model": "3d"}
+    scene["boundary"] |= {"flanks": {"fix": "z"}}
+    scene["contact"]["c"]["roles"] = roles
+    return json.dumps(scene)
+
+
+@pytest.mark.parametrize("size", [1, 0.8])
+def test_edge_in_space(run, tmp_path, size):
+    """As in the plane, and normal to the face; with the softer side as the nonmortar one a seventh of that, or another direction."""
+    plane, space = ends(run, edge(size)), ends(run, edge_in_space(tmp_path, size))
+    x, y, _ = force(space)
+    assert space.summary["begun_anew"] == 1 and (x / 0.3, y / 0.3) == pytest.approx(force(plane)[:2], rel=1e-3)
+    given = ends(run, edge_in_space(tmp_path, size, roles="given"))
+    assert given.summary["begun_anew"] == 0 and math.dist(force(given), force(space)) > 0.5 * math.hypot(x, y), given
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_corner_in_space(run, ranks):
+    """Of a cube that stands on it: by symmetry the force is upright; the block's coarse facets alone see nothing of the corner."""
+    options = ("-adapt_tolerance", 0, "-mesh_refine", 1, "-boundary_head_displacement_z", "-0.12*t", "-output_fields", "false")
+    x, y, z = force(run("tests/verify/scenes/cube_corner.yml", *options, ranks=ranks))
+    print(x, y, z)
+    assert max(abs(x), abs(y)) < 0.05 * abs(z) and abs(z) > 0.01
