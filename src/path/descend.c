@@ -1,6 +1,8 @@
 /* Down on the energy: where Newton's method finds no equilibrium (solve/descent.c), and where it finds one that is unstable (solve/stable.c). */
 #include "path.h"
 
+#define TIMES 3 /* from an equilibrium to another that is less unstable, and on from there */
+
 PetscBool PathCanDescend(const Path *p, const State *guess)
 {
   return SolverHasDescent(p->level->solver);
@@ -40,6 +42,8 @@ PetscErrorCode PathStabilise(Path *p, PetscBool *changed)
 {
   Level       *l     = p->level;
   const char  *words = NULL;
+  PetscBool    again = PETSC_TRUE, neutral = PETSC_FALSE;
+  PetscReal    fall = 0;
   SolverReport report;
   State        unstable;
   PetscReal   *from;
@@ -50,12 +54,16 @@ PetscErrorCode PathStabilise(Path *p, PetscBool *changed)
   PetscCall(StateCreate(l->problem, &unstable));
   PetscCall(StateCopy(&l->state, &unstable));
   PetscCall(PathFrom(p, &from));
-  PetscCall(SolverStabilise(l->solver, &l->state, &report));
-  PetscCall(PetscInfo(NULL, "unstable equilibrium: %s\n", report.converged ? "another was found" : report.reason));
-  if (report.converged) PetscCall(PathRefuse(p, from, &report, &words));
-  *changed         = (PetscBool)(report.converged && report.unstable == 0 && !words);
-  report.converged = *changed;
-  PathCount(p, &report, PETSC_FALSE);
+  for (PetscInt i = 0; i < TIMES && again; ++i) {
+    PetscCall(SolverStabilise(l->solver, &l->state, &report));
+    PetscCall(PetscInfo(NULL, "unstable equilibrium: %s\n", report.converged ? "another was found" : report.reason));
+    if (report.converged) PetscCall(PathRefuse(p, from, &report, &words));
+    if (i == 0) fall = report.fall, neutral = report.neutral;
+    *changed         = (PetscBool)(report.converged && report.unstable == 0 && !words);
+    again            = (PetscBool)(report.converged && report.unstable > 0 && !words);
+    report.converged = *changed;
+    PathCount(p, &report, PETSC_FALSE);
+  }
   if (*changed) {
     p->unstable_now = PETSC_FALSE;
     if (p->stabilised++ == 0)
@@ -63,10 +71,10 @@ PetscErrorCode PathStabilise(Path *p, PetscBool *changed)
           ForestComm(l->forest),
           "note: the equilibrium found at t = %g is unstable; a stable one takes its place, there and where that happens again (load.stable); "
           "along the mode energy falls by %.2g %% of the strain energy; less than the mesh is off, as of a round body free to turn, means nothing\n",
-          (double)l->state.t, (double)(100 * report.fall)));
+          (double)l->state.t, (double)(100 * fall)));
   } else {
     PetscCall(Keep_Private(l, &unstable));
-    p->unstable_now = (PetscBool)!report.neutral;
+    p->unstable_now = (PetscBool)!neutral;
   }
   PetscCall(StateDestroy(&unstable));
   PetscCall(PetscFree(from));

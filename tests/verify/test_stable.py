@@ -44,6 +44,36 @@ def test_column_buckles(run, tmp_path):
     assert s["energy"] < 0.7 * straight.summary["energy"]
 
 
+STRUT = """
+Point(1) = {-0.1, 0, 0, 0.1}; Point(2) = {0.1, 0, 0, 0.1}; Point(3) = {0.1, 6, 0, 0.1}; Point(4) = {-0.1, 6, 0, 0.1};
+Point(5) = {-0.8, -0.5, 0, 0.5}; Point(6) = {-0.35, -0.5, 0, 0.5}; Point(7) = {-0.35, 6.5, 0, 0.5}; Point(8) = {-0.8, 6.5, 0, 0.5};
+Point(9) = {0.35, -0.5, 0, 0.5}; Point(10) = {0.8, -0.5, 0, 0.5}; Point(11) = {0.8, 6.5, 0, 0.5}; Point(12) = {0.35, 6.5, 0, 0.5};
+For i In {0:2}
+  For k In {1:4}
+    Line(4 * i + k) = {4 * i + k, 4 * i + k % 4 + 1};
+  EndFor
+  Curve Loop(i + 1) = {4 * i + 1 : 4 * i + 4}; Plane Surface(i + 1) = {i + 1};
+EndFor
+Transfinite Curve{1, 3} = 3; Transfinite Curve{2, 4} = 41; Transfinite Surface{:}; Recombine Surface{:};
+Physical Surface("strut") = {1}; Physical Surface("left") = {2}; Physical Surface("right") = {3};
+Physical Curve("foot") = {1}; Physical Curve("east") = {2}; Physical Curve("head") = {3}; Physical Curve("west") = {4}; Physical Curve("to_left") = {6}; Physical Curve("to_right") = {12};
+"""
+
+
+def test_from_one_unstable_state_to_the_next(run, tmp_path):
+    """A strut between walls that is shortened to many times its critical load in one step: the first equilibrium that the descent comes to is unstable as well, and it goes on from there. (It
+    stayed straight, with three times the energy, away from the walls.)"""
+    (tmp_path / "strut.geo").write_text(STRUT)
+    text = json.dumps({"mesh": {"file": "strut.geo", "order": 1}, "model": "plane_strain", "order": 2, "output": {"fields": False}, "load": {"step": 1},
+                       "body": {"strut": {"material": "m"}, "left": {"material": "r"}, "right": {"material": "r"}},
+                       "material": {"m": {"law": "neo_hookean", "E": 10, "nu": 0.3}, "r": {"law": "rigid"}},
+                       "boundary": {"foot": {"fix": "xy"}, "head": {"displacement": {"x": 0, "y": -1}}},
+                       "contact": {"l": {"nonmortar": "west", "mortar": "to_left"}, "r": {"nonmortar": "east", "mortar": "to_right"}}})
+    strut = solved(run, text).summary
+    print(strut["energy"], strut["contact"])
+    assert strut["stabilised"] == 1 and strut["unstable_equilibria"] == 0 and strut["energy"] < 0.072 and strut["contact"]["l"]["force"][0] > 0.05
+
+
 ADAPTED = ("-adapt_tolerance", 1e-6, "-adapt_max_passes", 2)
 
 
