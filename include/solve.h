@@ -17,7 +17,7 @@ typedef struct {
   PetscInt      set_changes;                      /* contact nodes that active-set passes switched */
   PetscInt      set_cycles;                       /* linearisations whose active sets repeated, and 1 when Newton's own did */
   PetscInt      modifiers[SOLVER_MOST_MODIFIERS]; /* how often each modifier intervened */
-  PetscInt      unstable; /* converged: 1 when the last tangent factorised goes down in energy along some motion the constraints allow, -1: not known, else 0 */
+  PetscInt      unstable; /* converged: directions along which the energy falls that the constraints allow, of the last tangent factorised; -1: not known */
   PetscInt      descents; /* of SolverDescend, each with multipliers of its own */
   PetscInt      descent_iterations; /* their tangent assemblies */
   PetscReal     fall;               /* of SolverStabilise: of the energy along the lowest eigenvector, in strain energies */

@@ -1,8 +1,6 @@
 /* Down on the energy: where Newton's method finds no equilibrium (solve/descent.c), and where it finds one that is unstable (solve/stable.c). */
 #include "path.h"
 
-#define TIMES 3 /* from an equilibrium to another that is less unstable, and on from there */
-
 PetscBool PathCanDescend(const Path *p, const State *guess)
 {
   return SolverHasDescent(p->level->solver);
@@ -43,7 +41,8 @@ PetscErrorCode PathStabilise(Path *p, PetscBool *changed)
   Level       *l     = p->level;
   const char  *words = NULL;
   PetscBool    again = PETSC_TRUE, neutral = PETSC_FALSE;
-  PetscReal    fall = 0;
+  PetscReal    fall       = 0;
+  PetscInt     directions = PETSC_MAX_INT;
   SolverReport report;
   State        unstable;
   PetscReal   *from;
@@ -54,13 +53,14 @@ PetscErrorCode PathStabilise(Path *p, PetscBool *changed)
   PetscCall(StateCreate(l->problem, &unstable));
   PetscCall(StateCopy(&l->state, &unstable));
   PetscCall(PathFrom(p, &from));
-  for (PetscInt i = 0; i < TIMES && again; ++i) {
+  for (PetscInt i = 0; again; ++i) {
     PetscCall(SolverStabilise(l->solver, &l->state, &report));
     PetscCall(PetscInfo(NULL, "unstable equilibrium: %s\n", report.converged ? "another was found" : report.reason));
     if (report.converged) PetscCall(PathRefuse(p, from, &report, &words));
     if (i == 0) fall = report.fall, neutral = report.neutral;
     *changed         = (PetscBool)(report.converged && report.unstable == 0 && !words);
-    again            = (PetscBool)(report.converged && report.unstable > 0 && !words);
+    again            = (PetscBool)(report.converged && report.unstable > 0 && report.unstable < directions && !words); /* less unstable each time */
+    directions       = report.unstable;
     report.converged = *changed;
     PathCount(p, &report, PETSC_FALSE);
   }

@@ -136,7 +136,7 @@ static void Finish_Private(Solver s, SNESConvergedReason reason, const char *wor
 {
   s->snes->reason      = reason;
   s->report->converged = (PetscBool)(reason > 0);
-  s->report->unstable  = s->negative > 0 ? 1 : s->negative;
+  s->report->unstable  = s->negative;
   s->report->reason    = words;
 }
 
