@@ -86,11 +86,19 @@ static PetscErrorCode Column_Private(Interface p, const InterfaceSystem *a, cons
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* What multiplies the change of the weight in a column. Where a pair bears nothing yet gaps are those of bodies that do not touch, and as in the symmetric form
+   (rows.c) the column is the row's gradient: by gt_j times the change of z_j more, which vanishes at a solution, active sets would not settle. */
+static PetscReal Mean_Private(const Interface p, const Contact *c, PetscInt j)
+{
+  if (c->mean0) return c->mean0[j];
+  return FormHas(p->form->untouched, (PetscInt)(c - p->contacts)) && ContactCovered_Private(c, j) ? c->gap[j] / c->weight[j] : 0;
+}
+
 /* Columns of the multipliers of row k of a facet in contact: the pressure, and with friction the tangential tractions. */
 static PetscErrorCode Columns_Private(Interface p, const InterfaceSystem *a, const Contact *c, const ContactFacet *e, PetscInt k)
 {
   const PetscInt  n = p->dim * e->num, j = e->nodes[k], z = c->zdof[j];
-  const PetscReal mean = c->mean0 ? c->mean0[j] : 0, yield = e->push ? 0 : ContactYield_Private(c, e, k, 0);
+  const PetscReal mean = Mean_Private(p, c, j), yield = e->push ? 0 : ContactYield_Private(c, e, k, 0);
 
   PetscFunctionBegin;
   if (z < 0 || !c->near[j]) PetscFunctionReturn(PETSC_SUCCESS);

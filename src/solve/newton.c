@@ -28,11 +28,12 @@ static uint64_t Circle_Private(const Solver s, PetscInt last)
 
 PetscErrorCode SolverActiveSetSolve_Private(Solver s, PetscBool again, Vec dx, PetscBool *settled)
 {
-  PetscInt changed = 1;
+  PetscInt changed = 1, least = PETSC_MAX_INT, idle = 0;
 
   PetscFunctionBegin;
   s->circle = 0;
   for (PetscInt pass = 0; changed; ++pass) {
+    PetscCall(ArrayGrow(pass + 1, sizeof(*s->pass_sets), &s->pass_room, &s->pass_sets));
     PetscCall(InterfaceActiveSetHash(ProblemInterface(s->problem), &s->pass_sets[pass]));
     s->circle = Circle_Private(s, pass);
     if (s->circle) {
@@ -41,8 +42,12 @@ PetscErrorCode SolverActiveSetSolve_Private(Solver s, PetscBool again, Vec dx, P
       break;
     }
     PetscCall(LinearSolve_Private(s, (PetscBool)(again || pass > 0), dx));
-    if (s->no_solution || pass == s->passes) break;
+    if (s->no_solution || idle == s->passes) break;
     PetscCall(ProblemSwitchActiveSet(s->problem, dx, s->rhs, &changed));
+    if (pass > 0 && changed < least) /* on its way: on fine meshes that takes more passes */
+      least = changed;
+    else
+      ++idle;
     if (changed) PetscCall(StopAsked(PetscObjectComm((PetscObject)s->snes), &s->report->stopped));
     if (s->report->stopped) break;
     s->report->set_changes += changed;

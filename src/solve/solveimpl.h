@@ -71,13 +71,14 @@ struct _p_Solver {
   PetscBool     reuse, factored; /* may an earlier factor serve; there is one */
   PetscBool     single;          /* factors are in single precision */
   PetscBool     test;            /* -snes_test_jacobian was given */
-  uint64_t     *pass_sets;       /* owned [passes+1] hashes of the active sets of the passes of one linearisation */
-  uint64_t      circle;          /* in which the active sets of the last linear step went, 0: none */
-  PetscBool     swap;            /* SolverSwapPredictor */
-  PetscReal     step;            /* share of the last linear step that was gone */
-  Course        course;          /* of this solve */
-  PetscInt      negative;        /* pivots of the last factor of this solve beyond those of constraints, -1: not known */
-  PetscBool     no_memory;       /* for the last factor */
+  uint64_t     *pass_sets;       /* owned [pass_room] hashes of the active sets of the passes of one linearisation */
+  PetscInt      pass_room;
+  uint64_t      circle;    /* in which the active sets of the last linear step went, 0: none */
+  PetscBool     swap;      /* SolverSwapPredictor */
+  PetscReal     step;      /* share of the last linear step that was gone */
+  Course        course;    /* of this solve */
+  PetscInt      negative;  /* pivots of the last factor of this solve beyond those of constraints, -1: not known */
+  PetscBool     no_memory; /* for the last factor */
   SolverReport *report;
 };
 

@@ -178,7 +178,6 @@ PetscErrorCode SolverCreate(Problem problem, Solver *solver)
   PetscCall(ProblemCreateRightSide(problem, &s->lift));
   PetscCall(VecDuplicateAll(s->lift, 3, (Vec *[]){&s->rhs, &s->y, &s->hold}));
   if (StoresPressure_Private(problem)) PetscCall(ProblemCreateVector(problem, &s->balance));
-  PetscCall(PetscMalloc1(s->passes + 1, &s->pass_sets));
   *solver = s;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

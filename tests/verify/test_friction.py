@@ -1,5 +1,6 @@
 """Coulomb friction in the plane: patch tests that stick and slip, a block on an incline, sliding in one step, objectivity, balances; ranks, restarts,
 adaptation; input."""
+import json
 import math
 import pathlib
 
@@ -801,3 +802,31 @@ def test_rollers_in_one_step(run):
     assert result.returncode == 0 and not any(row["succeeded"] for name, row in result.summary["recoveries"].items() if name in ("descent", "viscous")), result
     for roller in "ab":
         assert result.summary["probe"][roller]["displacement"][0] == pytest.approx(0.3, rel=0.015)
+
+
+HUMPS = """
+For i In {0:1}
+  x = 1.6 * i - 0.8;
+  Point(10 * i + 1) = {x - 0.4, 0, 0, s}; Point(10 * i + 2) = {x, 0, 0, s}; Point(10 * i + 3) = {x + 0.4, 0, 0, s}; Point(10 * i + 4) = {x, 0.4, 0, s};
+  Line(10 * i + 1) = {10 * i + 1, 10 * i + 3}; Circle(10 * i + 2) = {10 * i + 3, 10 * i + 2, 10 * i + 4}; Circle(10 * i + 3) = {10 * i + 4, 10 * i + 2, 10 * i + 1};
+  Curve Loop(i + 1) = {10 * i + 1 : 10 * i + 3}; Plane Surface(i + 1) = {i + 1};
+EndFor
+Point(21) = {-1.5, 0.4, 0, 1}; Point(22) = {1.5, 0.4, 0, 1}; Point(23) = {1.5, 0.6, 0, 1}; Point(24) = {-1.5, 0.6, 0, 1};
+Line(21) = {21, 22}; Line(22) = {22, 23}; Line(23) = {23, 24}; Line(24) = {24, 21}; Curve Loop(3) = {21:24}; Plane Surface(3) = {3};
+Transfinite Surface{3}; Recombine Surface{3};
+Physical Surface("humps") = {1, 2}; Physical Surface("bar") = {3}; Physical Curve("foot") = {1, 11}; Physical Curve("round") = {2, 3, 12, 13}; Physical Curve("under") = {21};
+"""
+
+
+@pytest.mark.parametrize("size", [0.06, 0.048, 0.036])
+def test_first_touch_under_a_force(run, tmp_path, size):
+    """A rigid bar under a force off its middle on two humps, which one node each touches: on any mesh found in whole steps. (Columns of the multipliers with gaps of bodies that do not touch
+    yet let sets go anywhere.)"""
+    (tmp_path / "humps.geo").write_text(f"s = {size};" + HUMPS)
+    result = run("s.yml", "-output_fields", "false", text=json.dumps(
+        {"mesh": {"file": "humps.geo", "order": 3}, "model": "plane_strain", "order": 2, "body": {"humps": {"material": "steel"}, "bar": {"material": "rigid", "load": {"y": -4, "moment_z": -0.6}}},
+         "material": {"steel": {"law": "neo_hookean", "E": 1000, "nu": 0.3}, "rigid": {"law": "rigid"}}, "boundary": {"foot": {"fix": "xy"}}, "load": {"step": 0.25},
+         "contact": {"c": {"nonmortar": "round", "mortar": "under", "friction": 0.5}}}))
+    print(result.summary["newton_iterations"], result.summary["step_cuts"], result.summary["recoveries"])
+    assert result.returncode == 0 and result.summary["step_cuts"] == 0 and not any(r["tried"] for r in result.summary["recoveries"].values()), result
+    assert result.summary["contact"]["c"]["force"][1] == pytest.approx(-4, rel=1e-6), result
