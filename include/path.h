@@ -37,6 +37,12 @@ typedef struct {
 } Refusal;
 
 /* What a run knows of its path, whatever mesh it is on: what solves took, what recoveries did. */
+/* Energy that was dissipated in a load step: by viscous regularisation, and by friction of the pairs in pieces of the step that were committed before the last.
+ */
+typedef struct {
+  PetscReal viscous, friction[FORM_PAIRS];
+} StepWork;
+
 typedef struct {
   Level           *level; /* borrowed */
   const SceneData *data;  /* borrowed */
@@ -49,13 +55,14 @@ typedef struct {
   PetscBool        unstable_now;                     /* the last equilibrium found is unstable */
   PetscInt         modifiers[SOLVER_MOST_MODIFIERS]; /* interventions of Newton's modifiers */
   PetscInt         modifiers_in_step, iterations_in_step, cuts_in_step;
-  PetscInt         failures;                       /* attempts of this load step in vain; a step shorter than asked for begins with one */
-  PetscReal        viscous_work, all_viscous_work; /* energy that viscous regularisation dissipated in the step at hand, in all steps accepted */
-  PetscReal        flow_error, energy;             /* of all steps accepted, in the energy norm (StateFlowError); strain energy of the accepted state */
-  PetscBool        limit_point;                    /* loads are near a limit point: no equilibrium farther off is looked for */
-  PetscBool        stopped;                        /* the run was asked to stop */
-  ProblemStatus    status;                         /* of the last solution */
-  RecoveryCount    recovery[PATH_RECOVERIES];      /* by row of the table */
+  PetscInt         failures;                  /* attempts of this load step in vain; a step shorter than asked for begins with one */
+  StepWork         work;                      /* of the step at hand */
+  PetscReal        all_viscous_work;          /* of all steps accepted */
+  PetscReal        flow_error, energy;        /* of all steps accepted, in the energy norm (StateFlowError); strain energy of the accepted state */
+  PetscBool        limit_point;               /* loads are near a limit point: no equilibrium farther off is looked for */
+  PetscBool        stopped;                   /* the run was asked to stop */
+  ProblemStatus    status;                    /* of the last solution */
+  RecoveryCount    recovery[PATH_RECOVERIES]; /* by row of the table */
   Refusal          refusal[PATH_REFUSALS];
 } Path;
 

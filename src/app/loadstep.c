@@ -91,14 +91,17 @@ static PetscErrorCode Accept_Private(App *app)
   PetscCall(StateCopy(&l->state, &l->accepted));
   ++app->load_steps;
   if (app->path.unstable_now && app->path.unstable++ == 0) app->unstable_t = l->state.t;
-  app->path.all_viscous_work += app->path.viscous_work;
+  app->path.all_viscous_work += app->path.work.viscous;
   app->last.dt                = l->state.t - t0;
   app->last.step              = app->load_steps;
   app->last.newton_iterations = app->path.iterations_in_step;
   app->last.step_cuts         = app->path.cuts_in_step;
   app->last.modifiers         = app->path.modifiers_in_step;
-  app->last.viscous_work      = app->path.viscous_work;
-  for (PetscInt i = 0; i < app->balance.num_contacts; ++i) app->friction[i] = app->balance.pair[i].friction;
+  app->last.viscous_work      = app->path.work.viscous;
+  for (PetscInt i = 0; i < app->balance.num_contacts; ++i) {
+    app->balance.pair[i].friction.dissipation += app->path.work.friction[i];
+    app->friction[i] = app->balance.pair[i].friction;
+  }
   PetscCall(HistoryStep(app->history, &app->last, &app->balance, l->problem, &l->state));
   PetscCall(AppWatch(app));
   PetscCall(AppSnapshot(app));

@@ -12,7 +12,7 @@ PetscErrorCode PathDescend(Path *p, const PathLoop *load, PetscReal to, const St
   PetscReal *from;
 
   PetscFunctionBegin;
-  p->viscous_work = 0;
+  p->work = (StepWork){0};
   PetscCall(PathRestore(p, &l->accepted));
   PetscCall(PathFrom(p, &from));
   PetscCall(load->metric->set(p, load, to));

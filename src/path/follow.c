@@ -24,7 +24,7 @@ void PathBegin(Path *p, PetscBool is_short)
 {
   p->failures          = is_short;
   p->modifiers_in_step = p->iterations_in_step = p->cuts_in_step = 0;
-  p->viscous_work                                                = 0;
+  p->work                                                        = (StepWork){0};
 }
 
 void PathCount(Path *p, const SolverReport *report, PetscBool equilibrium)
@@ -174,6 +174,20 @@ static PetscErrorCode Piece_Private(Path *p, const PathLoop *loop, PetscReal nex
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* A piece of the step is history: slip begins anew. */
+static PetscErrorCode Commit_Private(Path *p)
+{
+  FrictionFigures f;
+
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < p->data->num_contacts; ++i) {
+    PetscCall(InterfaceFriction(ProblemInterface(p->level->problem), i, &f));
+    p->work.friction[p->data->contacts[i].pair] += f.dissipation;
+  }
+  PetscCall(StateCommit(p->level->problem, &p->level->state));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode PathFollow(Path *p, PathLoop *loop, SolverReport *report)
 {
   Level    *l = p->level;
@@ -184,12 +198,13 @@ PetscErrorCode PathFollow(Path *p, PathLoop *loop, SolverReport *report)
   PetscCall(StateCreate(l->problem, &start));
   PetscCall(StateCopy(&l->state, &start));
   while (!done) {
-    const PetscReal next = loop->metric->end(p, loop), work = p->viscous_work;
+    const PetscReal next = loop->metric->end(p, loop);
+    const StepWork  work = p->work;
     PetscReal       rolled;
     PetscBool       recovered;
     PetscCall(Piece_Private(p, loop, next, &start, &rolled, &recovered, report));
     if (IsTooLong_Private(p, loop, next, rolled)) {
-      p->viscous_work = work;
+      p->work = work;
       PetscCall(PathRestore(p, &start));
       continue;
     }
@@ -198,7 +213,7 @@ PetscErrorCode PathFollow(Path *p, PathLoop *loop, SolverReport *report)
       Grow_Private(loop, next, at_once, rolled, report);
       at_once = PETSC_TRUE;
       done    = (PetscBool)(loop->step || loop->s >= loop->stop);
-      if (!done && loop->metric->load) PetscCall(StateCommit(l->problem, &l->state)); /* the last piece stays open until the step is accepted */
+      if (!done && loop->metric->load) PetscCall(Commit_Private(p)); /* the last piece stays open until the step is accepted */
       if (!done) PetscCall(StateCopy(&l->state, &start));
       continue;
     }

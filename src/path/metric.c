@@ -147,7 +147,7 @@ static PetscErrorCode ViscousFound_Private(Path *p, const PathLoop *loop, PetscR
   }
   PetscCall(ProblemGetTime(l->problem, l->state.x, &l->state.t));
   PetscCall(ProblemViscousWork(l->problem, l->state.x, &work));
-  p->viscous_work += work;
+  p->work.viscous += work;
   PetscCall(StateKeepOrigin(l->problem, &l->state)); /* friction opposes the motion in pseudo-time; against all since the step's start it would feed one back */
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -14,7 +14,7 @@
 static PetscErrorCode Begin_Private(Path *p, const State *guess)
 {
   PetscFunctionBegin;
-  if (!guess) p->viscous_work = 0;
+  if (!guess) p->work = (StepWork){0};
   PetscCall(PathRestore(p, guess ? guess : &p->level->accepted));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -190,14 +190,14 @@ static PetscBool Applies_Private(const Path *p, PetscInt row, const State *guess
 /* Run a row; *report is replaced where it succeeds. */
 static PetscErrorCode Try_Private(Path *p, PetscInt row, const PathLoop *load, PetscReal to, const State *guess, SolverReport *report)
 {
-  const PetscReal work = p->viscous_work;
-  SolverReport    own  = {.reason = "not tried"};
+  const StepWork work = p->work;
+  SolverReport   own  = {.reason = "not tried"};
 
   PetscFunctionBegin;
   ++p->recovery[row].tried;
   PetscCall(PathRecoveries[row].run(p, load, to, guess, &own));
   PetscCall(PetscInfo(NULL, "recovery %s: %s\n", PathRecoveries[row].name, own.converged ? "found" : own.reason));
-  if (!own.converged) p->viscous_work = work;
+  if (!own.converged) p->work = work;
   if (!own.converged) PetscFunctionReturn(PETSC_SUCCESS);
   ++p->recovery[row].succeeded;
   *report = own;

@@ -44,7 +44,7 @@ PetscErrorCode SolverActiveSetSolve_Private(Solver s, PetscBool again, Vec dx, P
     PetscCall(LinearSolve_Private(s, (PetscBool)(again || pass > 0), dx));
     if (s->no_solution || idle == s->passes) break;
     PetscCall(ProblemSwitchActiveSet(s->problem, dx, s->rhs, &changed));
-    if (s->form.untouched && pass > 0 && changed < least) /* on its way: on fine meshes that takes more passes */
+    if (s->form.untouched && pass > 0 && changed < least) /* on its way: on fine meshes, from one node to the zone, that takes more passes */
       least = changed;
     else
       ++idle;
