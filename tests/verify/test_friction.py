@@ -295,13 +295,13 @@ def test_restart(run):
 
 @pytest.mark.parametrize("order", [1, 2])
 def test_o104_separation(run, order):
-    """Pressed, slid, pulled apart: no force, no traction is left."""
+    """Pressed, slid, pulled apart: no force, no traction is left, but for round-off of round-off: each iteration leaves 1e-16 of them."""
     text = disc("disc", order, 0.3).replace("-0.1*min(t, 1)", "-0.1*min(t,1)+0.3*max(0,t-2)").replace("end: 2", "end: 3")
     result = run("apart.yml", text=text)
     assert result.returncode == 0, result
     state = contact(result)
-    assert column(result, "contact_force")[1] > 1e-2 and column(result, "contact_force")[-1] == 0 and column(result, "contact.pair.dissipation")[-1] >= 0
-    assert numpy.abs(state["contact_pressure"]).max() == 0 and numpy.abs(state["tangential_traction"]).max() == 0
+    assert column(result, "contact_force")[1] > 1e-2 and column(result, "contact_force")[-1] < 1e-60 and column(result, "contact.pair.dissipation")[-1] >= 0
+    assert numpy.abs(state["contact_pressure"]).max() < 1e-60 and numpy.abs(state["tangential_traction"]).max() < 1e-60
 
 
 def test_o93_units(run):
