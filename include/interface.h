@@ -224,6 +224,8 @@ PetscErrorCode InterfaceInsertRows(Interface, const InterfaceSystem *);
    vector. Collective. */
 PetscErrorCode InterfaceRightSide(Interface, const InterfaceSystem *, Vec rhs);
 void           InterfaceScaleIncrement(Interface, PetscReal dx[]);
+/* Of a Newton step: the multipliers of open nodes go to 0, as their rows say but for round-off. Collective. */
+PetscErrorCode InterfaceOpenIncrement(Interface, Vec dx);
 /* One pass of the active set: as ProblemSwitchActiveSet, but for the assembly of the matrix. */
 PetscErrorCode InterfaceSwitch(Interface, const InterfaceSystem *, Vec dx, Vec rhs, PetscInt *changed);
 

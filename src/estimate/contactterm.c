@@ -161,7 +161,7 @@ static PetscErrorCode IsBare_Private(MPI_Comm comm, const ContactView *v, PetscB
 {
   PetscFunctionBegin;
   *bare = (PetscBool)(v->spec->law != CONTACT_TIED && !v->spec->adjust);
-  for (PetscInt j = 0; j < v->nonmortar.num_nodes; ++j) *bare = (PetscBool)(*bare && (!v->nonmortar.owned[j] || !v->active[j] || v->z[j] == 0));
+  for (PetscInt j = 0; j < v->nonmortar.num_nodes; ++j) *bare = (PetscBool)(*bare && (!v->nonmortar.owned[j] || v->z[j] == 0));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, bare, 1, MPIU_BOOL, MPI_LAND, comm));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -39,7 +39,7 @@ PetscErrorCode InterfaceFindUntouched(Interface p, uint64_t *pairs)
     if (c->tie) continue;
     for (PetscInt k = 0; k < c->side[0].num_own; ++k) {
       const PetscInt j = c->side[0].own[k];
-      if (c->zlocal[j] >= 0) most = PetscMax(most, PetscAbsReal(c->z[j])); /* round-off, too, tells of a pair that has borne: it is found as it was left */
+      if (c->zlocal[j] >= 0) most = PetscMax(most, PetscAbsReal(c->z[j]));
     }
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPIU_REAL, MPI_MAX, p->comm));
     if (most == 0) *pairs |= (uint64_t)1 << i;

@@ -225,6 +225,23 @@ void InterfaceScaleIncrement(Interface p, PetscReal dx[])
   }
 }
 
+PetscErrorCode InterfaceOpenIncrement(Interface p, Vec dx)
+{
+  PetscReal *d;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArray(dx, &d));
+  for (PetscInt i = 0; i < p->num_contacts; ++i) {
+    const Contact *c = &p->contacts[i];
+    for (PetscInt j = 0; j < c->side[0].num_nodes && !c->tie; ++j) {
+      if (c->zlocal[j] < 0 || c->active[j]) continue;
+      for (PetscInt k = 0; k < c->num; ++k) d[c->zlocal[j] + k] = -c->z[c->side[0].num_nodes * k + j];
+    }
+  }
+  PetscCall(VecRestoreArray(dx, &d));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode InterfaceInsertRows(Interface p, const InterfaceSystem *a)
 {
   PetscFunctionBegin;

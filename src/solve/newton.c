@@ -9,7 +9,9 @@ static PetscErrorCode LinearSolve_Private(Solver s, PetscBool again, Vec dx)
 {
   PetscFunctionBegin;
   PetscCall(SolverMatrixSolve_Private(s, s->rhs, again));
-  if (!s->no_solution) PetscCall(ProblemRecover(s->problem, s->y, dx));
+  if (s->no_solution) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(ProblemRecover(s->problem, s->y, dx));
+  PetscCall(InterfaceOpenIncrement(ProblemInterface(s->problem), dx));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -295,13 +295,13 @@ def test_restart(run):
 
 @pytest.mark.parametrize("order", [1, 2])
 def test_o104_separation(run, order):
-    """Pressed, slid, pulled apart: no force, no traction is left, but for round-off of round-off: each iteration leaves 1e-16 of them."""
+    """Pressed, slid, pulled apart: no force, no traction is left."""
     text = disc("disc", order, 0.3).replace("-0.1*min(t, 1)", "-0.1*min(t,1)+0.3*max(0,t-2)").replace("end: 2", "end: 3")
     result = run("apart.yml", text=text)
     assert result.returncode == 0, result
     state = contact(result)
-    assert column(result, "contact_force")[1] > 1e-2 and column(result, "contact_force")[-1] < 1e-60 and column(result, "contact.pair.dissipation")[-1] >= 0
-    assert numpy.abs(state["contact_pressure"]).max() < 1e-60 and numpy.abs(state["tangential_traction"]).max() < 1e-60
+    assert column(result, "contact_force")[1] > 1e-2 and column(result, "contact_force")[-1] == 0 and column(result, "contact.pair.dissipation")[-1] >= 0
+    assert numpy.abs(state["contact_pressure"]).max() == 0 and numpy.abs(state["tangential_traction"]).max() == 0
 
 
 def test_o93_units(run):
@@ -818,15 +818,25 @@ Physical Surface("humps") = {1, 2}; Physical Surface("bar") = {3}; Physical Curv
 """
 
 
-@pytest.mark.parametrize("size", [0.06, 0.048, 0.036])
-def test_first_touch_under_a_force(run, tmp_path, size):
-    """A rigid bar under a force off its middle on two humps, which one node each touches: on any mesh found in whole steps. (Columns of the multipliers with gaps of bodies that do not touch
-    yet let sets go anywhere.)"""
-    (tmp_path / "humps.geo").write_text(f"s = {size};" + HUMPS)
-    result = run("s.yml", "-output_fields", "false", text=json.dumps(
-        {"mesh": {"file": "humps.geo", "order": 3}, "model": "plane_strain", "order": 2, "body": {"humps": {"material": "steel"}, "bar": {"material": "rigid", "load": {"y": -4, "moment_z": -0.6}}},
+def bar_on_humps(run, path, size, order=2, ranks=1):
+    """A rigid bar under a force off its middle on two humps, which one node each touches."""
+    (path / "humps.geo").write_text(f"s = {size};" + HUMPS)
+    result = run("s.yml", "-output_fields", "false", ranks=ranks, text=json.dumps(
+        {"mesh": {"file": "humps.geo", "order": 3}, "model": "plane_strain", "order": order, "body": {"humps": {"material": "steel"}, "bar": {"material": "rigid", "load": {"y": -4, "moment_z": -0.6}}},
          "material": {"steel": {"law": "neo_hookean", "E": 1000, "nu": 0.3}, "rigid": {"law": "rigid"}}, "boundary": {"foot": {"fix": "xy"}}, "load": {"step": 0.25},
          "contact": {"c": {"nonmortar": "round", "mortar": "under", "friction": 0.5}}}))
-    print(result.summary["newton_iterations"], result.summary["step_cuts"], result.summary["recoveries"])
+    print("size", size, "order", order, result.returncode, "iterations", result.summary["newton_iterations"], "cuts", result.summary["step_cuts"])
+    return result
+
+
+@pytest.mark.parametrize("size, order", [(0.06, 2), (0.048, 2), (0.036, 2), (0.06, 4)])
+def test_first_touch_under_a_force(run, tmp_path, size, order):
+    """On any mesh found in whole steps. (Columns of the multipliers with gaps of bodies that do not touch yet let sets go anywhere.)"""
+    result = bar_on_humps(run, tmp_path, size, order)
     assert result.returncode == 0 and result.summary["step_cuts"] == 0 and not any(r["tried"] for r in result.summary["recoveries"].values()), result
     assert result.summary["contact"]["c"]["force"][1] == pytest.approx(-4, rel=1e-6), result
+
+
+def test_first_touch_on_ranks(run, tmp_path):
+    one, *more = (bar_on_humps(run, tmp_path, 0.06, ranks=ranks).summary for ranks in (1, 2, 3))
+    for other in more: assert other["energy"] == pytest.approx(one["energy"], rel=1e-8)
