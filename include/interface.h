@@ -241,15 +241,15 @@ PetscErrorCode InterfaceFindWide(Interface, uint64_t *pairs);
    the change of the multipliers there is taken as one of forces. changed: there was one. Collective. */
 void           InterfaceKeepWeights(Interface);
 PetscErrorCode InterfaceCarryForces(Interface, Vec dx, PetscBool *changed);
-/* corner.c: sharp corners (in space the ends of sharp edges) of mortar sides that press within facets of the nonmortar side, or at nodes of it, while nothing
-   beside them does: the side with the corner is the better one to carry the multipliers. */
+/* corner.c: sharp corners (in space the ends of sharp edges) of mortar sides of these pairs (bits ContactSpec.pair) that press within facets of the nonmortar
+   side, or at nodes of it, while nothing beside them does: the side with the corner is the better one to carry the multipliers. */
 typedef struct {
   PetscInt  pair;   /* ContactSpec.pair */
   PetscInt  splits; /* of facets at the corner, until they are less than twice as long as those that it presses on */
   PetscReal X[3];   /* reference position */
 } InterfaceCorner;
 /* At the last evaluation; near: also those that are about to, off by less than a tenth of the facet. Freed by the caller. Collective. */
-PetscErrorCode InterfaceFindCorners(Interface, PetscBool near, PetscInt *num, InterfaceCorner **corners);
+PetscErrorCode InterfaceFindCorners(Interface, uint64_t pairs, PetscBool near, PetscInt *num, InterfaceCorner **corners);
 /* Pairs that have borne nothing yet. */
 PetscErrorCode InterfaceFindUntouched(Interface, uint64_t *pairs);
 /* At each iterate of a solve: notes in which facets the mortar side ends, and which that changed for while they bore. begin: what was noted is forgotten, as at

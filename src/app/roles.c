@@ -84,12 +84,11 @@ PetscErrorCode AppCheckRoles(App *app, PetscBool found)
   PetscFunctionBegin;
   if (!candidates) PetscFunctionReturn(PETSC_SUCCESS);
   if (!found) PetscCall(GoBack_Private(app));
-  PetscCall(InterfaceFindCorners(ProblemInterface(app->level.problem), (PetscBool)!found, &num, &corners));
+  PetscCall(InterfaceFindCorners(ProblemInterface(app->level.problem), candidates, (PetscBool)!found, &num, &corners));
   for (PetscInt k = 0; k < num; ++k) {
     const PetscInt     pair = corners[k].pair;
     const ContactSpec *c    = app->data->contacts;
     while (c->pair != pair) ++c;
-    if (pair >= MOST || !(candidates >> pair & 1)) continue;
     PetscCall(Refine_Private(app, &corners[k]));
     if (!(app->exchanged >> pair & 1)) PetscCall(Exchange_Private(app, c, "a sharp corner of the mortar side presses within a facet of the nonmortar side"));
   }

@@ -104,7 +104,7 @@ static PetscErrorCode Edges_Private(const Surface *s, PetscInt *num, Edge edge[]
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Where the segment has this corner: position of a facet of a side. */
+/* Position of a point of a facet. */
 static void Point_Private(const Surface *s, PetscInt facet, const PetscReal xi[2], PetscReal x[3])
 {
   const PetscInt *on, num = SurfaceNodes_Private(s, facet, &on);
@@ -180,27 +180,31 @@ static PetscErrorCode Segments_Private(const Contact *c, PetscReal slack, const 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Do nodes of facets beside the marked ones press, as far as this rank knows, those that have a node in common with these? */
+/* Does a node press that is of a facet beside the marked ones, and of none of these? Facets beside have a node in common with them. */
 static PetscErrorCode Beside_Private(const Contact *c, const int8_t mark[], PetscBool *pressed)
 {
-  const Surface *s = &c->side[0];
-  int8_t        *of; /* [node] of a marked facet 2, of one beside 1 */
+  const Surface  *s = &c->side[0];
+  const PetscInt *node;
+  PetscBool      *of_marked; /* [node] */
 
   PetscFunctionBegin;
-  PetscCall(PetscCalloc1(s->num_nodes, &of));
-  for (PetscInt pass = 0; pass < 2; ++pass)
-    for (PetscInt f = 0; f < s->num_facets; ++f) {
-      const PetscInt *node, num = SurfaceNodes_Private(s, f, &node);
-      PetscBool       beside = PETSC_FALSE;
-      for (PetscInt k = 0; k < num; ++k) beside = (PetscBool)(beside || of[node[k]] == 2);
-      for (PetscInt k = 0; k < num; ++k) {
-        if (pass == 0 && mark[f]) of[node[k]] = 2;
-        if (pass == 1 && beside && !of[node[k]]) of[node[k]] = 1;
-      }
+  PetscCall(PetscCalloc1(s->num_nodes, &of_marked));
+  for (PetscInt f = 0; f < s->num_facets; ++f) {
+    const PetscInt num = SurfaceNodes_Private(s, f, &node);
+    for (PetscInt k = 0; k < num && mark[f]; ++k) of_marked[node[k]] = PETSC_TRUE;
+  }
+  for (PetscInt f = 0; f < s->num_facets; ++f) {
+    const PetscInt num    = SurfaceNodes_Private(s, f, &node);
+    PetscBool      beside = PETSC_FALSE, presses = PETSC_FALSE;
+    for (PetscInt k = 0; k < num; ++k) {
+      if (of_marked[node[k]])
+        beside = PETSC_TRUE;
+      else if (IsPressed_Private(c, node[k]))
+        presses = PETSC_TRUE;
     }
-  for (PetscInt n = 0; n < s->num_nodes; ++n)
-    if (of[n] == 1 && IsPressed_Private(c, n)) *pressed = PETSC_TRUE;
-  PetscCall(PetscFree(of));
+    if (beside && presses) *pressed = PETSC_TRUE;
+  }
+  PetscCall(PetscFree(of_marked));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -259,7 +263,7 @@ static PetscErrorCode Pair_Private(Interface p, PetscReal slack, PetscInt num_pa
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode InterfaceFindCorners(Interface p, PetscBool near, PetscInt *num, InterfaceCorner **corners)
+PetscErrorCode InterfaceFindCorners(Interface p, uint64_t pairs, PetscBool near, PetscInt *num, InterfaceCorner **corners)
 {
   PetscFunctionBegin;
   *num     = 0;
@@ -267,7 +271,7 @@ PetscErrorCode InterfaceFindCorners(Interface p, PetscBool near, PetscInt *num, 
   for (PetscInt i = 0, end; i < p->num_contacts; i = end) {
     const ContactSpec *spec = p->contacts[i].spec;
     for (end = i + 1; end < p->num_contacts && p->contacts[end].spec->pair == spec->pair;) ++end;
-    if (spec->self || spec->node_to_segment || p->contacts[i].law->ties) continue;
+    if (spec->pair >= 64 || !(pairs >> spec->pair & 1) || spec->self || spec->node_to_segment || p->contacts[i].law->ties) continue;
     PetscCall(Pair_Private(p, near ? CONTACT_SLIVER : -CONTACT_ROUND, end - i, &p->contacts[i], num, corners));
   }
   PetscFunctionReturn(PETSC_SUCCESS);

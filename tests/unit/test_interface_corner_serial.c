@@ -47,7 +47,7 @@ static PetscInt Find(PetscReal x, PetscReal y, const PetscReal rise[2], PetscRea
     has_multiplier[n] = valued[n] = PETSC_TRUE;
     active[n]                     = nonmortar.x[2 * n] > from - 0.1 && nonmortar.x[2 * n] < to + 0.1;
   }
-  CHECK_CALL(InterfaceFindCorners(&interface, near, &num, &corner));
+  CHECK_CALL(InterfaceFindCorners(&interface, UINT64_MAX, near, &num, &corner));
   assert_true(num <= 1);
   if (num) {
     assert_int_equal(corner->pair, 3);

@@ -155,7 +155,7 @@ def test_edge_in_space(run, tmp_path, size):
     assert given.summary["begun_anew"] == 0 and math.dist(force(given), force(space)) > 0.5 * math.hypot(x, y), given
 
 
-@pytest.mark.parametrize("ranks", [1, 2])
+@pytest.mark.parametrize("ranks", [1, 2, 3])
 def test_corner_in_space(run, ranks):
     """Of a cube that stands on it: by symmetry the force is upright; the block's coarse facets alone see nothing of the corner."""
     options = ("-adapt_tolerance", 0, "-mesh_refine", 1, "-boundary_head_displacement_z", "-0.12*t", "-output_fields", "false")
