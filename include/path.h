@@ -36,13 +36,12 @@ typedef struct {
   PetscErrorCode (*ask)(Problem, const PetscReal from[], const State *, PetscReal scale, const char **reason);
 } Refusal;
 
-/* What a run knows of its path, whatever mesh it is on: what solves took, what recoveries did. */
-/* Energy that was dissipated in a load step: by viscous regularisation, and by friction of the pairs in pieces of the step that were committed before the last.
- */
+/* Dissipated in a load step: by viscous regularisation, and by friction of the pairs in the pieces of it that were committed before the last. */
 typedef struct {
   PetscReal viscous, friction[FORM_PAIRS];
 } StepWork;
 
+/* What a run knows of its path, whatever mesh it is on: what solves took, what recoveries did. */
 typedef struct {
   Level           *level; /* borrowed */
   const SceneData *data;  /* borrowed */

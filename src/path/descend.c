@@ -25,45 +25,58 @@ PetscErrorCode PathDescend(Path *p, const PathLoop *load, PetscReal to, const St
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Back to the solution there was. */
-static PetscErrorCode Keep_Private(Level *l, const State *unstable)
+/* The problem becomes that at level->state, which is a solution. */
+static PetscErrorCode Refresh_Private(Level *l)
 {
   PetscFunctionBegin;
-  PetscCall(StateCopy(unstable, &l->state));
   PetscCall(ProblemSetState(l->problem, &l->state));
   PetscCall(ProblemSearch(l->problem, l->state.x));
   PetscCall(ProblemRefresh(l->problem, l->state.x));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* From one unstable equilibrium, level->state, to the next while they are so in fewer directions each time. *stable: the last one is (or neutral). fall: of
+   the energy along the first mode. neutral: the first one was no more than that. */
+static PetscErrorCode Leave_Private(Path *p, PetscReal *fall, PetscBool *neutral, PetscBool *stable)
+{
+  Level       *l          = p->level;
+  const char  *refused    = NULL;
+  PetscInt     directions = PETSC_MAX_INT;
+  PetscReal   *from;
+  SolverReport report;
+
+  PetscFunctionBegin;
+  *stable = PETSC_FALSE;
+  PetscCall(PathFrom(p, &from));
+  for (PetscInt i = 0;; ++i) {
+    PetscCall(SolverStabilise(l->solver, &l->state, &report));
+    PetscCall(PetscInfo(NULL, "unstable equilibrium: %s\n", report.converged ? "another was found" : report.reason));
+    if (i == 0) *fall = report.fall, *neutral = report.neutral;
+    if (report.converged) PetscCall(PathRefuse(p, from, &report, &refused));
+    *stable = (PetscBool)(!refused && (report.converged ? report.unstable == 0 : i > 0 && report.neutral));
+    PathCount(p, &report, PETSC_FALSE);
+    if (!report.converged || refused || *stable || report.unstable >= directions) break;
+    directions = report.unstable;
+  }
+  if (*stable && report.neutral) PetscCall(Refresh_Private(l));
+  PetscCall(PetscFree(from));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode PathStabilise(Path *p, PetscBool *changed)
 {
-  Level       *l     = p->level;
-  const char  *words = NULL;
-  PetscBool    again = PETSC_TRUE, neutral = PETSC_FALSE;
-  PetscReal    fall       = 0;
-  PetscInt     directions = PETSC_MAX_INT;
-  SolverReport report;
-  State        unstable;
-  PetscReal   *from;
+  Level        *l      = p->level;
+  ProblemStatus status = p->status;
+  PetscBool     neutral;
+  PetscReal     fall;
+  State         unstable;
 
   PetscFunctionBegin;
   *changed = PETSC_FALSE;
   if (!p->unstable_now || !p->data->load.stable || !PathCanDescend(p, NULL)) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(StateCreate(l->problem, &unstable));
   PetscCall(StateCopy(&l->state, &unstable));
-  PetscCall(PathFrom(p, &from));
-  for (PetscInt i = 0; again; ++i) {
-    PetscCall(SolverStabilise(l->solver, &l->state, &report));
-    PetscCall(PetscInfo(NULL, "unstable equilibrium: %s\n", report.converged ? "another was found" : report.reason));
-    if (report.converged) PetscCall(PathRefuse(p, from, &report, &words));
-    if (i == 0) fall = report.fall, neutral = report.neutral;
-    *changed         = (PetscBool)(report.converged && report.unstable == 0 && !words);
-    again            = (PetscBool)(report.converged && report.unstable > 0 && report.unstable < directions && !words); /* less unstable each time */
-    directions       = report.unstable;
-    report.converged = *changed;
-    PathCount(p, &report, PETSC_FALSE);
-  }
+  PetscCall(Leave_Private(p, &fall, &neutral, changed));
   if (*changed) {
     p->unstable_now = PETSC_FALSE;
     if (p->stabilised++ == 0)
@@ -73,10 +86,11 @@ PetscErrorCode PathStabilise(Path *p, PetscBool *changed)
           "along the mode energy falls by %.2g %% of the strain energy; less than the mesh is off, as of a round body free to turn, means nothing\n",
           (double)l->state.t, (double)(100 * fall)));
   } else {
-    PetscCall(Keep_Private(l, &unstable));
+    PetscCall(StateCopy(&unstable, &l->state));
+    PetscCall(Refresh_Private(l));
+    p->status       = status;
     p->unstable_now = (PetscBool)!neutral;
   }
   PetscCall(StateDestroy(&unstable));
-  PetscCall(PetscFree(from));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
