@@ -86,8 +86,9 @@ static PetscErrorCode Column_Private(Interface p, const InterfaceSystem *a, cons
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* What multiplies the change of the weight in a column. Where a pair bears nothing yet gaps are those of bodies that do not touch, and as in the symmetric form
-   (rows.c) the column is the row's gradient: by gt_j times the change of z_j more, which vanishes at a solution, active sets would not settle. */
+/* The factor of the weight's change in a multiplier's column. Exact is 0, and the column differs from the gradient of the node's row by its mean gap times that
+   change. Where a pair has borne nothing yet the gaps are those between bodies that do not touch; with such columns active sets do not settle. There the
+   column is the gradient, as in the symmetric form (rows.c): the difference vanishes at a solution. */
 static PetscReal Mean_Private(const Interface p, const Contact *c, PetscInt j)
 {
   if (c->mean0) return c->mean0[j];
