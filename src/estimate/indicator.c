@@ -74,13 +74,13 @@ static void Height_Private(PetscInt dim, PetscInt order, const PetscReal X[], Pe
 }
 
 /* Div P at Gauss point q: derivative of the tensor Lagrange polynomial, mapped by J^-1; axisymmetric: plus (P_rR - P_tt)/R, P_zR/R. S: the square of what each
-   axis adds to it over a cell's length of that axis. */
+   axis adds to it over the cell's height along that axis; squares: the sum of those without the height. */
 static void Divergence_Private(PetscInt dim, Model model, const VolumeTable *table, PetscInt q, const PetscReal *P, const PetscReal J[9], const PetscReal X[3],
-                               PetscReal div[3], PetscReal S[3])
+                               PetscReal div[3], PetscReal S[3], PetscReal *squares)
 {
   const PetscReal det = Det3(J);
 
-  div[0] = div[1] = div[2] = 0;
+  div[0] = div[1] = div[2] = *squares = 0;
   for (PetscInt d = 0, stride = 1; d < dim; ++d, stride *= table->n1) {
     const PetscInt i = q / stride % table->n1, a = (d + 1) % 3, b = (d + 2) % 3;
     PetscReal      gradient[3], dP[9] = {0};
@@ -97,6 +97,7 @@ static void Divergence_Private(PetscInt dim, Model model, const VolumeTable *tab
       const PetscReal part = Dot3(dP + 3 * c, gradient);
       div[c] += part;
       S[d] += PetscSqr(part) / Dot3(gradient, gradient);
+      *squares += PetscSqr(part);
     }
   }
   if (model == MODEL_AXISYMMETRIC) {
@@ -113,7 +114,7 @@ static PetscErrorCode Residual_Private(const EstimateSum *sum, const BodySpec *b
   PetscFunctionBegin;
   for (PetscInt q = 0; q < table->num; ++q) {
     PetscReal force;
-    Divergence_Private(dim, sum->spec->model, table, q, w->P, w->J + 9 * q, w->position + 3 * q, w->R + 3 * q, w->S + 3 * q);
+    Divergence_Private(dim, sum->spec->model, table, q, w->P, w->J + 9 * q, w->position + 3 * q, w->R + 3 * q, w->S + 3 * q, w->squares + q);
     for (PetscInt c = 0; c < dim; ++c) {
       if (!body->force[c]) continue;
       PetscCall(MechanicsValue(body->force[c], &body->amplitude, w->position + 3 * q, sum->time, &force));
@@ -185,17 +186,31 @@ static void Weights_Private(const EstimateSum *sum, const VolumeTable *table, Ce
   }
 }
 
+/* The square of the cell's height over which the residual varies: the mean over axes, by what each adds to it; of an order that has no residual but forces, the
+   least one. Flat cells with the least one for all would tell of what varies along their length by their thickness. */
+static PetscReal Height2_Private(const EstimateSum *sum, const VolumeTable *table, const CellWork *w, const PetscReal height[3])
+{
+  PetscReal whole = 0, squares = 0, least = height[0];
+
+  for (PetscInt q = 0; q < table->num; ++q) {
+    for (PetscInt d = 0; d < sum->v->dim; ++d) whole += w->weight[q] * w->S[3 * q + d];
+    squares += w->weight[q] * w->squares[q];
+  }
+  for (PetscInt d = 1; d < sum->v->dim; ++d) least = PetscMin(least, height[d]);
+  return table->order > 1 && squares > 0 ? whole / squares : PetscSqr(least);
+}
+
 /* Energy, interior residual and incompressibility of an owned cell. modulus: of its stiffest point. */
 static PetscErrorCode OwnedCell_Private(EstimateSum *sum, PetscInt cell, const VolumeTable *table, CellWork *w, const PetscReal height[3], PetscReal modulus)
 {
   const PetscInt      leaf     = sum->v->cell_leaf[cell];
   const MaterialSpec *material = sum->spec->bodies[sum->t->leaf_body[leaf]].material;
-  PetscReal           h        = height[0], square;
+  PetscReal           square;
 
   PetscFunctionBegin;
   for (PetscInt q = 0; q < table->num; ++q) sum->energy += w->weight[q] * w->W[q];
-  for (PetscInt d = 1; d < sum->v->dim; ++d) h = PetscMin(h, height[d]);
-  square = WeightedSquare_Private(table->num, 3, w->weight, w->R) * EstimateScale_Private(table->order) * PetscSqr(h / table->order) / modulus;
+  square = WeightedSquare_Private(table->num, 3, w->weight, w->R) * EstimateScale_Private(table->order) * Height2_Private(sum, table, w, height) /
+           (PetscSqr((PetscReal)table->order) * modulus);
   sum->eta2[leaf] += square;
   sum->part[PART_INTERIOR] += square;
   EstimateInterior_Private(sum, leaf, table->num, w->weight, w->S, square);
@@ -274,7 +289,7 @@ static PetscErrorCode WorkCreate_Private(const EstimateSum *sum, CellWork *w)
   const PetscInt points = most + sum->facets.most_points;
   PetscCall(
       PetscMalloc7(3 * most, &w->X, 3 * points, &w->xi, 3 * points, &w->position, 9 * points, &w->J, 9 * points, &w->F, 9 * points, &w->P, points, &w->W));
-  PetscCall(PetscMalloc5(most, &w->weight, 2 * most, &w->g, 3 * most, &w->R, 3 * most, &w->S, most, &w->recovered));
+  PetscCall(PetscMalloc6(most, &w->weight, 2 * most, &w->g, 3 * most, &w->R, 3 * most, &w->S, most, &w->squares, most, &w->recovered));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -282,7 +297,7 @@ static PetscErrorCode WorkDestroy_Private(CellWork *w)
 {
   PetscFunctionBegin;
   PetscCall(PetscFree7(w->X, w->xi, w->position, w->J, w->F, w->P, w->W));
-  PetscCall(PetscFree5(w->weight, w->g, w->R, w->S, w->recovered));
+  PetscCall(PetscFree6(w->weight, w->g, w->R, w->S, w->squares, w->recovered));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
