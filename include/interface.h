@@ -227,7 +227,7 @@ void           InterfaceScaleIncrement(Interface, PetscReal dx[]);
 /* Of a Newton step: the multipliers of open nodes go to 0, as their rows say but for round-off. Collective. */
 PetscErrorCode InterfaceOpenIncrement(Interface, Vec dx);
 /* One pass of the active set: as ProblemSwitchActiveSet, but for the assembly of the matrix. */
-PetscErrorCode InterfaceSwitch(Interface, const InterfaceSystem *, Vec dx, Vec rhs, PetscInt *changed);
+PetscErrorCode InterfaceSwitch(Interface, const InterfaceSystem *, Vec dx, PetscBool single, Vec rhs, PetscInt *disagree);
 
 /* ---- what a form may be chosen by, at the last evaluation. All collective ------------------------------------------------------- */
 

@@ -45,7 +45,7 @@ typedef struct {
 typedef struct {
   Level           *level; /* borrowed */
   const SceneData *data;  /* borrowed */
-  PetscInt         step_cuts, newton_iterations, set_changes, set_cycles, factorisations, single_failures;
+  PetscInt         step_cuts, newton_iterations, set_changes, single_switches, set_cycles, factorisations, single_failures;
   PetscInt         descent_iterations;               /* tangents of descents, besides Newton's */
   PetscInt         unstable, judged;                 /* accepted though unstable; equilibria found of which it is known whether they are stable */
   PetscInt         stabilised;                       /* that took the place of unstable ones */

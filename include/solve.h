@@ -15,6 +15,7 @@ typedef struct {
   PetscInt      factorisations;
   PetscInt      single_failures;                  /* factors in single precision that did not serve: a solver has at most one, then it takes double */
   PetscInt      set_changes;                      /* contact nodes that active-set passes switched */
+  PetscInt      single_switches;                  /* of these, passes in which one node switched alone */
   PetscInt      set_cycles;                       /* linearisations whose active sets repeated, and 1 when Newton's own did */
   PetscInt      modifiers[SOLVER_MOST_MODIFIERS]; /* how often each modifier intervened */
   PetscInt      unstable; /* converged: directions along which the energy falls that the constraints allow, of the last tangent factorised; -1: not known */

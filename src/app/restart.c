@@ -14,6 +14,7 @@ static const struct {
     {"adapt_passes", offsetof(App, adapt_passes)},
     {"newton_iterations", offsetof(App, path.newton_iterations)},
     {"active_set_changes", offsetof(App, path.set_changes)},
+    {"single_switches", offsetof(App, path.single_switches)},
     {"active_set_cycles", offsetof(App, path.set_cycles)},
     {"reported_cycles", offsetof(App, told_cycles)},
     {"factorisations", offsetof(App, path.factorisations)},

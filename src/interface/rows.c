@@ -254,8 +254,8 @@ PetscErrorCode InterfaceInsertRows(Interface p, const InterfaceSystem *a)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The law's states of this rank's nodes for the increment dx of their multipliers, into c->active; those before into old, at all nodes known here. */
-static PetscErrorCode States_Private(Interface p, const InterfaceSystem *a, Contact *c, const PetscReal dx[], int8_t old[])
+/* The law's states of this rank's own nodes, [num_own], for the increment dx of the multipliers, and the points that they are of. */
+static PetscErrorCode States_Private(Interface p, const InterfaceSystem *a, Contact *c, const PetscReal dx[], ContactPoint point[], int8_t state[])
 {
   Surface        *s         = &c->side[0];
   const PetscBool untouched = FormHas(p->form->untouched, (PetscInt)(c - p->contacts));
@@ -274,75 +274,121 @@ static PetscErrorCode States_Private(Interface p, const InterfaceSystem *a, Cont
   PetscCall(ContactChange_Private(p, c, a->increment, c->change));
   if (c->slip) PetscCall(SlipChange_Private(p, c, c->slip->change));
   if (untouched) PetscCall(ContactLeastOverlap_Private(p, c, &least));
-  PetscCall(PetscArraycpy(old, c->active, s->num_nodes));
   for (PetscInt i = 0; i < s->num_own; ++i) {
     const PetscInt j = s->own[i];
+    state[i]         = c->active[j];
     if (c->zlocal[j] < 0 || !c->near[j] || !ContactCovered_Private(c, j)) continue;
-    ContactPoint point = ContactPoint_Private(c, j, PETSC_FALSE);
-    for (PetscInt k = 0; k < c->num; ++k) point.z[k] += dx[c->zlocal[j] + k];
-    point.gap += c->change[j] + coupled[j] - c->coupled[j];
+    point[i] = ContactPoint_Private(c, j, PETSC_FALSE);
+    for (PetscInt k = 0; k < c->num; ++k) point[i].z[k] += dx[c->zlocal[j] + k];
+    point[i].gap += c->change[j] + coupled[j] - c->coupled[j];
     for (PetscInt d = 0; d < p->dim - 1 && c->slip; ++d) {
       const PetscInt at = s->num_nodes * d + j;
-      point.slip[d] += c->slip->change[at] + slip[at] - c->slip->coupled[at];
+      point[i].slip[d] += c->slip->change[at] + slip[at] - c->slip->coupled[at];
     }
-    if (untouched && p->form->pressures_first) point.friction = 0;
-    const int8_t active = c->law->state(&point);
-    if (active && !c->active[j] && ContactOverlap_Private(c, j) < least) continue;
-    if (p->dim == 3 && c->slip && active != c->active[j]) c->law->aim(&point, c->slip->aim + 3 * j);
-    c->active[j] = active;
+    if (untouched && p->form->pressures_first) point[i].friction = 0;
+    const int8_t next = c->law->state(&point[i]);
+    if (!next || c->active[j] || ContactOverlap_Private(c, j) >= least) state[i] = next;
   }
   PetscCall(PetscFree3(z, coupled, slip));
-  for (PetscInt i = 0; i < s->num_own; ++i) c->pack[s->own[i]] = c->active[s->own[i]];
-  PetscCall(LinkSpread_Private(p, &s->values, 1, c->pack));
-  for (PetscInt i = 0; i < s->values.num; ++i) c->active[s->values.nodes[i]] = (int8_t)c->pack[s->values.nodes[i]];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* New activity of the nodes of one pair for the increment dx: rows of this rank that switch, and those that compliances couple to them, are rewritten, force
-   shifts go to rhs. dx: this rank's part of the increment; num grows by the switches. */
-static PetscErrorCode Switch_Private(Interface p, const InterfaceSystem *a, Contact *c, const PetscReal dx[], Vec rhs, PetscInt *num)
+/* Rows that switch are rewritten, [node] of `again`, and those that compliances couple to them. */
+static PetscErrorCode Rewrite_Private(Interface p, const InterfaceSystem *a, Contact *c, const int8_t old[], PetscBool again[])
 {
   const Surface *s = &c->side[0];
-  int8_t        *old;
-  PetscBool     *again;
 
   PetscFunctionBegin;
-  if (ContactIsReleased_Private(p, c) || c->tie) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(PetscMalloc1(s->num_nodes, &old));
-  PetscCall(PetscCalloc1(s->num_nodes, &again));
-  PetscCall(States_Private(p, a, c, dx, old));
-  for (PetscInt i = 0; i < s->num_own; ++i) again[s->own[i]] = (PetscBool)(c->active[s->own[i]] != old[s->own[i]]);
-  for (PetscInt i = 0; i < s->num_own; ++i) {
-    const PetscInt j = s->own[i];
-    if (!again[j]) continue;
-    ++*num;
-    PetscCall(InactiveShift_Private(p, a, c, j, c->active[j] ? -1 : 1, rhs));
-  }
   for (PetscInt i = 0; i < c->num_facets; ++i) {
     const ContactFacet *e        = &c->facets[i];
     PetscBool           switches = PETSC_FALSE;
     for (PetscInt k = 0; k < e->num_rows && e->compliance; ++k) switches = (PetscBool)(switches || c->active[e->nodes[k]] != old[e->nodes[k]]);
     for (PetscInt k = 0; k < e->num_rows && switches; ++k) again[e->nodes[k]] = PETSC_TRUE;
   }
-  for (PetscInt i = 0; i < s->num_own; ++i) {
+  for (PetscInt i = 0; i < s->num_own; ++i)
     if (again[s->own[i]] && c->zlocal[s->own[i]] >= 0) PetscCall(InsertRow_Private(p, a, c, s->own[i]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* New states of the nodes of one pair, or of node `only` of it (-1: of all): rows are rewritten, force shifts go to rhs. */
+static PetscErrorCode Apply_Private(Interface p, const InterfaceSystem *a, Contact *c, const ContactPoint point[], const int8_t state[], PetscInt only, Vec rhs)
+{
+  const Surface *s = &c->side[0];
+  int8_t        *old;
+  PetscBool     *again;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(s->num_nodes, &old));
+  PetscCall(PetscCalloc1(s->num_nodes, &again));
+  PetscCall(PetscArraycpy(old, c->active, s->num_nodes));
+  for (PetscInt i = 0; i < s->num_own; ++i) {
+    const PetscInt j = s->own[i];
+    if (state[i] != c->active[j] && (only < 0 || j == only)) {
+      again[j] = PETSC_TRUE;
+      if (p->dim == 3 && c->slip) c->law->aim(&point[i], c->slip->aim + 3 * j);
+      c->active[j] = state[i];
+    }
+    c->pack[j] = c->active[j];
   }
+  PetscCall(LinkSpread_Private(p, &s->values, 1, c->pack));
+  for (PetscInt i = 0; i < s->values.num; ++i) c->active[s->values.nodes[i]] = (int8_t)c->pack[s->values.nodes[i]];
+  for (PetscInt i = 0; i < s->num_own; ++i)
+    if (again[s->own[i]]) PetscCall(InactiveShift_Private(p, a, c, s->own[i], c->active[s->own[i]] ? -1 : 1, rhs));
+  PetscCall(Rewrite_Private(p, a, c, old, again));
   PetscCall(PetscFree(old));
   PetscCall(PetscFree(again));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode InterfaceSwitch(Interface p, const InterfaceSystem *a, Vec dx, Vec rhs, PetscInt *changed)
+/* What the law says of one pair. */
+typedef struct {
+  ContactPoint *point; /* [num_own] */
+  int8_t       *state; /* [num_own] */
+} Verdict;
+
+/* Verdicts of all pairs; how many nodes disagree with their states, and the last of them, pair << 32 + node, -1: there is none. */
+static PetscErrorCode Judge_Private(Interface p, const InterfaceSystem *a, Vec dx, Verdict verdict[], PetscInt *disagree, int64_t *last)
 {
   const PetscReal *d;
 
   PetscFunctionBegin;
-  *changed = 0;
+  *disagree = 0;
+  *last     = -1;
   PetscCall(VecGetArrayRead(dx, &d));
-  for (PetscInt i = 0; i < p->num_contacts; ++i) PetscCall(Switch_Private(p, a, &p->contacts[i], d, rhs, changed));
+  for (PetscInt i = 0; i < p->num_contacts; ++i) {
+    Contact       *c   = &p->contacts[i];
+    const PetscInt num = c->side[0].num_own;
+    if (ContactIsReleased_Private(p, c) || c->tie) continue;
+    PetscCall(PetscMalloc2(num, &verdict[i].point, num, &verdict[i].state));
+    PetscCall(States_Private(p, a, c, d, verdict[i].point, verdict[i].state));
+    for (PetscInt k = 0; k < num; ++k) {
+      const PetscInt j = c->side[0].own[k];
+      if (verdict[i].state[k] == c->active[j]) continue;
+      ++*disagree;
+      *last = PetscMax(*last, ((int64_t)i << 32) + j);
+    }
+  }
   PetscCall(VecRestoreArrayRead(dx, &d));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, changed, 1, MPIU_INT, MPI_SUM, p->comm));
-  if (!*changed) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, disagree, 1, MPIU_INT, MPI_SUM, p->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, last, 1, MPI_INT64_T, MPI_MAX, p->comm));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode InterfaceSwitch(Interface p, const InterfaceSystem *a, Vec dx, PetscBool single, Vec rhs, PetscInt *disagree)
+{
+  Verdict *verdict;
+  int64_t  last;
+
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc1(p->num_contacts, &verdict));
+  PetscCall(Judge_Private(p, a, dx, verdict, disagree, &last));
+  for (PetscInt i = 0; i < p->num_contacts; ++i) {
+    if (*disagree && verdict[i].state && (!single || i == last >> 32))
+      PetscCall(Apply_Private(p, a, &p->contacts[i], verdict[i].point, verdict[i].state, single ? (PetscInt)(last & UINT32_MAX) : -1, rhs));
+    PetscCall(PetscFree2(verdict[i].point, verdict[i].state));
+  }
+  PetscCall(PetscFree(verdict));
+  if (!*disagree) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(VecAssemble(rhs));
   PetscCall(RowSides_Private(p, a, rhs));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -121,6 +121,7 @@ const OutputField OutputSummaryFields[] = {
     {"adapt_passes", "", "adaptive passes of all steps"},
     {"newton_iterations", "", "iterations of Newton's method, attempts in vain included"},
     {"active_set_changes", "", "changes of the active set of contact"},
+    {"single_switches", "", "of these, nodes that switched alone"},
     {"active_set_cycles", "", "active sets that repeated"},
     {"factorisations", "", "factorisations of the tangent"},
     {"single_factor_failures", "", "factorisations in single precision that had to be made in double precision"},

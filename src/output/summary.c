@@ -265,6 +265,7 @@ static cJSON *Document_Private(const SceneData *scene, const RunSummary *s, cons
   AddNumber_Private(root, "adapt_passes", (PetscReal)s->adapt_passes);
   AddNumber_Private(root, "newton_iterations", (PetscReal)path->newton_iterations);
   AddNumber_Private(root, "active_set_changes", (PetscReal)path->set_changes);
+  AddNumber_Private(root, "single_switches", (PetscReal)path->single_switches);
   AddNumber_Private(root, "active_set_cycles", (PetscReal)path->set_cycles);
   AddNumber_Private(root, "factorisations", (PetscReal)path->factorisations);
   AddNumber_Private(root, "single_factor_failures", (PetscReal)path->single_failures);

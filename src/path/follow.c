@@ -32,6 +32,7 @@ void PathCount(Path *p, const SolverReport *report, PetscBool equilibrium)
   p->newton_iterations += report->iterations;
   p->iterations_in_step += report->iterations;
   p->set_changes += report->set_changes;
+  p->single_switches += report->single_switches;
   p->set_cycles += report->set_cycles;
   p->factorisations += report->factorisations;
   p->single_failures += report->single_failures;

@@ -104,15 +104,15 @@ PetscErrorCode ProblemTangent(Problem p, Vec x, const PetscReal pressure[], Vec 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ProblemSwitchActiveSet(Problem p, Vec dx, Vec rhs, PetscInt *changed)
+PetscErrorCode ProblemSwitchActiveSet(Problem p, Vec dx, PetscBool single, Vec rhs, PetscInt *disagree)
 {
   const InterfaceSystem system = ProblemSystem_Private(p);
 
   PetscFunctionBegin;
-  *changed = 0;
+  *disagree = 0;
   if (!p->scene->num_contacts) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ProblemIncrement_Private(p, dx, 1.0));
-  PetscCall(InterfaceSwitch(p->interface, &system, dx, rhs, changed));
-  if (*changed) PetscCall(MatAssemble(p->matrix, MAT_FINAL_ASSEMBLY));
+  PetscCall(InterfaceSwitch(p->interface, &system, dx, single, rhs, disagree));
+  if (*disagree) PetscCall(MatAssemble(p->matrix, MAT_FINAL_ASSEMBLY));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

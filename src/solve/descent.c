@@ -351,6 +351,7 @@ static PetscErrorCode Exact_Private(Descent *d, State *state)
   last.factorisations += total->factorisations;
   last.single_failures += total->single_failures;
   last.set_changes += total->set_changes;
+  last.single_switches += total->single_switches;
   last.set_cycles += total->set_cycles;
   for (PetscInt i = 0; i < SolverNumModifiers(); ++i) last.modifiers[i] += total->modifiers[i];
   last.descents           = total->descents;

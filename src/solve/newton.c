@@ -5,79 +5,6 @@
 #include "solveimpl.h"
 #include <petsc/private/snesimpl.h>
 
-static PetscErrorCode LinearSolve_Private(Solver s, PetscBool again, Vec dx)
-{
-  PetscFunctionBegin;
-  PetscCall(SolverMatrixSolve_Private(s, s->rhs, again));
-  if (s->no_solution) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(ProblemRecover(s->problem, s->y, dx));
-  PetscCall(InterfaceOpenIncrement(ProblemInterface(s->problem), dx));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Was the set of pass `last` there before the one before it? Sets of passes go in circles where a gap and a pressure vanish together, and where none agrees
-   with the linear step. A circle goes by the largest of its hashes; 0: there is none. */
-static uint64_t Circle_Private(const Solver s, PetscInt last)
-{
-  uint64_t largest = s->pass_sets[last];
-
-  for (PetscInt i = last - 1; i >= 0; --i) {
-    if (i + 1 < last && s->pass_sets[i] == s->pass_sets[last]) return largest;
-    largest = PetscMax(largest, s->pass_sets[i]);
-  }
-  return 0;
-}
-
-PetscErrorCode SolverActiveSetSolve_Private(Solver s, PetscBool again, Vec dx, PetscBool *settled)
-{
-  PetscInt changed = 1, least = PETSC_MAX_INT, idle = 0;
-
-  PetscFunctionBegin;
-  s->circle = 0;
-  for (PetscInt pass = 0; changed; ++pass) {
-    PetscCall(ArrayGrow(pass + 1, sizeof(*s->pass_sets), &s->pass_room, &s->pass_sets));
-    PetscCall(InterfaceActiveSetHash(ProblemInterface(s->problem), &s->pass_sets[pass]));
-    s->circle = Circle_Private(s, pass);
-    if (s->circle) {
-      ++s->report->set_cycles;
-      PetscCall(PetscInfo(s->snes, "active sets repeat after %" PetscInt_FMT " passes\n", pass));
-      break;
-    }
-    PetscCall(LinearSolve_Private(s, (PetscBool)(again || pass > 0), dx));
-    if (s->no_solution || idle == s->passes) break;
-    PetscCall(ProblemSwitchActiveSet(s->problem, dx, s->rhs, &changed));
-    if (s->form.untouched && pass > 0 && changed < least) /* on its way: on fine meshes, from one node to the zone, that takes more passes */
-      least = changed;
-    else
-      ++idle;
-    if (changed) PetscCall(StopAsked(PetscObjectComm((PetscObject)s->snes), &s->report->stopped));
-    if (s->report->stopped) break;
-    s->report->set_changes += changed;
-    if (changed) PetscCall(PetscInfo(s->snes, "active-set pass %" PetscInt_FMT ": %" PetscInt_FMT " nodes switched\n", pass, changed));
-  }
-  *settled = (PetscBool)(changed == 0);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* What friction bears is a share of pressures. At first touch there are none: where states go by those of the nodes that happen to be first, they never settle
-   on slender bodies. So the nodes that press are found as without friction, and then who sticks and who slips. What nothing but friction holds may not settle
-   so: then both at once. */
-static PetscErrorCode PressuresFirst_Private(Solver s, Vec dx, PetscBool *settled)
-{
-  PetscInt changed;
-
-  PetscFunctionBegin;
-  PetscCall(SolverActiveSetSolve_Private(s, PETSC_FALSE, dx, settled));
-  s->form.pressures_first = PETSC_FALSE;
-  if (!*settled || s->no_solution) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(ProblemSetForm(s->problem, &s->form));
-  PetscCall(ProblemSwitchActiveSet(s->problem, dx, s->rhs, &changed));
-  s->report->set_changes += changed;
-  if (changed) PetscCall(SolverActiveSetSolve_Private(s, PETSC_TRUE, dx, settled));
-  *settled = PETSC_TRUE;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* The tangent at an iterate in the form chosen, and the linear step. */
 static PetscErrorCode Linearise_Private(Solver s, const Iterate *it, Vec dx)
 {
@@ -96,7 +23,7 @@ static PetscErrorCode Linearise_Private(Solver s, const Iterate *it, Vec dx)
     PetscCall(SolverActiveSetSolve_Private(s, PETSC_FALSE, dx, &settled));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  PetscCall(PressuresFirst_Private(s, dx, &settled));
+  PetscCall(SolverPressuresFirst_Private(s, dx, &settled));
   if (!settled && !s->report->stopped) PetscCall(Linearise_Private(s, it, dx)); /* anew: the tangent begins with the states that the residual tells */
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -23,7 +23,8 @@ typedef struct {
 static const SolverOption Options[] = {
     {"-solve_rtol", KIND_SMALL, SMALL, AT(rtol), "residual against the root of the summed squared nodal forces; default 1e-10"},
     {"-solve_active_set_passes", KIND_COUNT, COUNT, AT(passes),
-     "active-set passes against one linearisation, at first touch besides those that switch fewer nodes than any before; default 10"},
+     "active-set passes in a row that leave no fewer nodes in disagreement before nodes switch one at a time, 0: none switches; default 10"},
+    {"-solve_single_switches", KIND_BOOL, "0|1|false|true|no|yes", AT(alone), "may nodes switch one at a time, or is the last linear step taken; default yes"},
     {"-solve_cuts", KIND_COUNT, COUNT, AT(cuts), "halvings of a Newton step that leaves the domain; default 6"},
     {"-solve_symmetric", KIND_BOOL, "0|1|false|true|no|yes", AT(symmetric),
      "LDL^T of the tangent's symmetric form, or LU of the exact one; default: where possible"},

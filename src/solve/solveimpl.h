@@ -3,6 +3,7 @@
 #include "solve.h"
 
 #define SOLVER_LARGE 20000       /* unknowns in space from which a factor in double is not the cheapest: one in single, or of order 1 a hierarchy */
+#define ALL_PAIRS (~(uint64_t)0) /* of Form.frozen_normals */
 #define SOLVER_MOST_RESERVE 1000 /* percent of workspace above MUMPS's estimate at which we give up */
 
 typedef enum { MODIFIER_AUTO, MODIFIER_ON, MODIFIER_OFF } ModifierMode;
@@ -53,6 +54,7 @@ struct _p_Solver {
   PetscReal     rtol;
   PetscBool     symmetric; /* LDL^T of the symmetric form */
   PetscInt      passes, cuts;
+  PetscBool     alone;             /* nodes may switch one at a time */
   PetscInt      max_it, max_funcs; /* as SNES has them, and */
   PetscReal     snes_rtol, snes_atol, snes_stol;
   Form          form;                        /* of the residual at hand; transient parts of the last tangent */
@@ -74,6 +76,7 @@ struct _p_Solver {
   uint64_t     *pass_sets;       /* owned [pass_room] hashes of the active sets of the passes of one linearisation */
   PetscInt      pass_room;
   uint64_t      circle;    /* in which the active sets of the last linear step went, 0: none */
+  PetscBool     bent;      /* no set was found that agrees with the last linear step, whose problem is not convex */
   PetscBool     swap;      /* SolverSwapPredictor */
   PetscReal     step;      /* share of the last linear step that was gone */
   Course        course;    /* of this solve */
@@ -90,10 +93,11 @@ PetscErrorCode SolverCheckTypes_Private(void);
 PetscErrorCode SNESCreate_ContactNewton(SNES);
 /* Norm and active set of an iterate whose residual is there. Collective. */
 PetscErrorCode SolverLook_Private(Solver, Iterate *);
-/* Solve tangent . dx = rhs with the active set iterated: until it stays, or repeats (then the solution that contradicted its own set least is taken), or the
-   passes are used up. again: the matrix has been factorised with other rows of this linearisation; settled: the last pass changed no state. s->no_solution:
-   there is none. Collective. */
+/* activeset.c: solve tangent . dx = rhs with the active set iterated until it stays, or none may agree. again: the matrix has been factorised with other rows
+   of this linearisation; settled: the last pass changed no state; s->circle: in which sets went, 0: none; s->no_solution: there is none. Collective. */
 PetscErrorCode SolverActiveSetSolve_Private(Solver, PetscBool again, Vec dx, PetscBool *settled);
+/* The same in two stages, of which the first is without friction. */
+PetscErrorCode SolverPressuresFirst_Private(Solver, Vec dx, PetscBool *settled);
 /* judge.c: is the residual small, do incompressible cells keep their volume, and is nothing prescribed left? reason > 0: yes. Collective. */
 PetscErrorCode SolverConverged_Private(Solver, const Iterate *, SNESConvergedReason *reason);
 /* A residual that counts as none, unit: force. */

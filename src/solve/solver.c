@@ -47,6 +47,7 @@ static PetscErrorCode Options_Private(Solver s)
   s->max_it    = 25;
   s->max_funcs = PETSC_MAX_INT;
   s->passes    = 10;
+  s->alone     = PETSC_TRUE;
   s->cuts      = 6;
 
   s->linear                = LINEAR_AUTO;

@@ -1,0 +1,110 @@
+/* The active set of a linear step: which nodes bear, stick and slip if gaps, slip and multipliers change as the tangent says. Every node whose state disagrees
+   with the step switches at once, which mostly ends after a few passes, but may go in circles: where a fine side faces a coarser one, and round corners within a
+   facet, few nodes bear, and each relieves others. Where no pass in s->passes leaves fewer nodes that disagree than any before, or a set comes again, one node
+   alone switches, the last one, until fewer disagree: block principal pivoting with Murty's rule in reserve (J. J. Júdice, F. M. Pires, Computers & Operations
+   Research 21 (1994) 587), which ends for any linear complementarity problem whose matrix is positive definite. Where the tangent has negative pivots beyond those
+   of constraints it is not, and no set may agree: the tangent is made again at fixed directions then (frozennormals.c). Sets may come again although one node
+   at a time switches, with friction above all; the last linear step is taken. */
+#include "solveimpl.h"
+
+typedef struct {
+  PetscInt  pass, first; /* number of the pass; of the first whose set may come again */
+  PetscInt  least, idle; /* nodes that disagreed, at the fewest; passes since then */
+  PetscBool single;      /* one node switches */
+} Passes;
+
+static PetscErrorCode LinearSolve_Private(Solver s, PetscBool again, Vec dx)
+{
+  PetscFunctionBegin;
+  PetscCall(SolverMatrixSolve_Private(s, s->rhs, again));
+  if (s->no_solution) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(ProblemRecover(s->problem, s->y, dx));
+  PetscCall(InterfaceOpenIncrement(ProblemInterface(s->problem), dx));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Notes the set of this pass. *seen: it has been there before; s->circle then is the largest hash of those since, by which a circle goes. */
+static PetscErrorCode Note_Private(Solver s, const Passes *p, PetscBool *seen)
+{
+  PetscInt k = p->pass - 1;
+
+  PetscFunctionBegin;
+  PetscCall(ArrayGrow(p->pass + 1, sizeof(*s->pass_sets), &s->pass_room, &s->pass_sets));
+  PetscCall(InterfaceActiveSetHash(ProblemInterface(s->problem), &s->pass_sets[p->pass]));
+  while (k >= p->first && s->pass_sets[k] != s->pass_sets[p->pass]) --k;
+  *seen     = (PetscBool)(k >= p->first);
+  s->circle = 0;
+  for (PetscInt i = k; *seen && i <= p->pass; ++i) s->circle = PetscMax(s->circle, s->pass_sets[i]);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Nodes that disagree with the linear step switch: all, or one. */
+static PetscErrorCode Switch_Private(Solver s, Passes *p, PetscBool single, Vec dx, PetscInt *disagree)
+{
+  PetscFunctionBegin;
+  if (single && !p->single) p->first = p->pass;
+  p->single = single;
+  PetscCall(ProblemSwitchActiveSet(s->problem, dx, single, s->rhs, disagree));
+  s->report->set_changes += single ? *disagree > 0 : *disagree;
+  s->report->single_switches += single && *disagree > 0;
+  PetscCall(PetscInfo(s->snes, "active-set pass %" PetscInt_FMT ": %" PetscInt_FMT " nodes disagree%s\n", p->pass, *disagree, single ? ", one switches" : ""));
+  if (*disagree >= p->least) {
+    p->idle = single ? s->passes : p->idle + 1;
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  p->least = *disagree;
+  p->idle  = 0;
+  if (single) p->first = p->pass + 1;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SolverActiveSetSolve_Private(Solver s, PetscBool again, Vec dx, PetscBool *settled)
+{
+  Passes    p        = {.least = PETSC_MAX_INT};
+  PetscInt  disagree = 1;
+  PetscBool convex   = PETSC_TRUE, seen;
+
+  PetscFunctionBegin;
+  s->bent = PETSC_FALSE;
+  for (; disagree && !s->report->stopped; ++p.pass) {
+    PetscCall(Note_Private(s, &p, &seen));
+    if (seen && p.single) {
+      ++s->report->set_cycles;
+      PetscCall(PetscInfo(s->snes, "active sets repeat after %" PetscInt_FMT " passes\n", p.pass));
+      break;
+    }
+    PetscCall(LinearSolve_Private(s, (PetscBool)(again || p.pass > 0), dx));
+    convex                 = (PetscBool)(convex && s->negative <= 0);
+    const PetscBool single = (PetscBool)(seen || p.idle >= s->passes);
+    if (s->no_solution || s->passes == 0) break;
+    if (single && !convex && s->form.frozen_normals != ALL_PAIRS) {
+      s->bent = PETSC_TRUE;
+      PetscCall(PetscInfo(s->snes, "no active set agrees after %" PetscInt_FMT " passes, and the linearised problem is not convex\n", p.pass));
+      break;
+    }
+    if (single && !s->alone) break;
+    PetscCall(Switch_Private(s, &p, single, dx, &disagree));
+    if (disagree) PetscCall(StopAsked(PetscObjectComm((PetscObject)s->snes), &s->report->stopped));
+  }
+  *settled = (PetscBool)(disagree == 0);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* What friction bears is a share of pressures. At first touch there are none: where states go by those of the nodes that happen to be first, they never settle
+   on slender bodies. So the nodes that press are found as without friction, and then who sticks and who slips. What nothing but friction holds may not settle
+   so: then both at once. */
+PetscErrorCode SolverPressuresFirst_Private(Solver s, Vec dx, PetscBool *settled)
+{
+  PetscInt changed;
+
+  PetscFunctionBegin;
+  PetscCall(SolverActiveSetSolve_Private(s, PETSC_FALSE, dx, settled));
+  s->form.pressures_first = PETSC_FALSE;
+  if (!*settled || s->no_solution) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(ProblemSetForm(s->problem, &s->form));
+  PetscCall(ProblemSwitchActiveSet(s->problem, dx, PETSC_FALSE, s->rhs, &changed));
+  s->report->set_changes += changed;
+  if (changed) PetscCall(SolverActiveSetSolve_Private(s, PETSC_TRUE, dx, settled));
+  *settled = PETSC_TRUE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,34 @@
+"""Active sets of a linear step that go in circles as long as all nodes that disagree switch at once (src/solve/activeset.c)."""
+import pytest
+
+QUIET = ("-output_fields", "false")
+LAYER = ("tests/gauntlet/layer_axi.yml", "-order", 3, *QUIET)  # 31 nodes of a stiff rounded punch on 9 facets of a layer 1e5 times softer
+
+
+def counts(result):
+    s = result.summary
+    print(result.returncode, "t", s["t"], "iterations", s["newton_iterations"], "factorisations", s["factorisations"], "single switches", s["single_switches"], "cycles", s["active_set_cycles"])
+    return s
+
+
+def test_one_node_at_a_time(run):
+    """Found without a cut, and in half of the iterations that it takes otherwise, if at all."""
+    result, without = run(*LAYER), run(*LAYER, "-solve_single_switches", "no", "-load_step_min", 0.1)
+    s, naive = counts(result), counts(without)
+    assert result.returncode == 0 and s["step_cuts"] == 0 and s["single_switches"] > 0 and s["newton_iterations"] <= 60, result
+    assert naive["single_switches"] == 0 and (without.returncode == 2 or naive["newton_iterations"] > 2 * s["newton_iterations"]), without
+
+
+def test_ranks(run):
+    """The order of nodes, one of which switches, is that of the mesh, whoever has them."""
+    one, *more = (counts(run(*LAYER, "-load_end", 0.25, ranks=ranks)) for ranks in (1, 2, 3))
+    for other in more:
+        assert other["energy"] == pytest.approx(one["energy"], rel=1e-8) and other["single_switches"] == one["single_switches"] > 0
+
+
+def test_not_convex(run):
+    """A blade of rubber that begins in a window: sets need not agree with a tangent that is not convex, which is made again at fixed directions."""
+    result, without = (run("tests/gauntlet/wiper.yml", *QUIET, "-newton_frozen_normals", mode) for mode in ("auto", "off"))
+    s, naive = counts(result), counts(without)
+    assert result.returncode == 0 and s["modifiers"]["frozen_normals"] > 0 and s["newton_iterations"] <= 15, result
+    assert without.returncode == 2 or naive["newton_iterations"] > 2 * s["newton_iterations"], without
