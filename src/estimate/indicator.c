@@ -186,9 +186,10 @@ static void Weights_Private(const EstimateSum *sum, const VolumeTable *table, Ce
   }
 }
 
-/* The square of the cell's height over which the residual varies: the mean over axes, by what each adds to it; of an order that has no residual but forces, the
-   least one. Flat cells with the least one for all would tell of what varies along their length by their thickness. */
-static PetscReal Height2_Private(const EstimateSum *sum, const VolumeTable *table, const CellWork *w, const PetscReal height[3])
+/* The square of the cell's height over which the residual varies: the mean over axes, by what each adds to it. Flat cells with the least one for all would tell
+   of what varies along their length by their thickness. The least one where axes add next to nothing (order 1), and in mixed cells, where most of what they add
+   is what the recovered pressure takes up. */
+static PetscReal Height2_Private(const EstimateSum *sum, const VolumeTable *table, PetscBool mixed, const CellWork *w, const PetscReal height[3])
 {
   PetscReal whole = 0, squares = 0, least = height[0];
 
@@ -197,7 +198,7 @@ static PetscReal Height2_Private(const EstimateSum *sum, const VolumeTable *tabl
     squares += w->weight[q] * w->squares[q];
   }
   for (PetscInt d = 1; d < sum->v->dim; ++d) least = PetscMin(least, height[d]);
-  return table->order > 1 && squares > 0 ? whole / squares : PetscSqr(least);
+  return !mixed && table->order > 1 && squares > 0 ? whole / squares : PetscSqr(least);
 }
 
 /* Energy, interior residual and incompressibility of an owned cell. modulus: of its stiffest point. */
@@ -209,8 +210,8 @@ static PetscErrorCode OwnedCell_Private(EstimateSum *sum, PetscInt cell, const V
 
   PetscFunctionBegin;
   for (PetscInt q = 0; q < table->num; ++q) sum->energy += w->weight[q] * w->W[q];
-  square = WeightedSquare_Private(table->num, 3, w->weight, w->R) * EstimateScale_Private(table->order) * Height2_Private(sum, table, w, height) /
-           (PetscSqr((PetscReal)table->order) * modulus);
+  square = WeightedSquare_Private(table->num, 3, w->weight, w->R) * EstimateScale_Private(table->order) *
+           Height2_Private(sum, table, material->mixed, w, height) / (PetscSqr((PetscReal)table->order) * modulus);
   sum->eta2[leaf] += square;
   sum->part[PART_INTERIOR] += square;
   EstimateInterior_Private(sum, leaf, table->num, w->weight, w->S, square);

@@ -1,10 +1,10 @@
 /* The active set of a linear step: which nodes bear, stick and slip if gaps, slip and multipliers change as the tangent says. Every node whose state disagrees
-   with the step switches at once, which mostly ends after a few passes, but may go in circles: where a fine side faces a coarser one, and round corners within a
-   facet, few nodes bear, and each relieves others. Where no pass in s->passes leaves fewer nodes that disagree than any before, or a set comes again, one node
-   alone switches, the last one, until fewer disagree: block principal pivoting with Murty's rule in reserve (J. J. Júdice, F. M. Pires, Computers & Operations
-   Research 21 (1994) 587), which ends for any linear complementarity problem whose matrix is positive definite. Where the tangent has negative pivots beyond those
-   of constraints it is not, and no set may agree: the tangent is made again at fixed directions then (frozennormals.c). Sets may come again although one node
-   at a time switches, with friction above all; the last linear step is taken. */
+   with the step switches at once, which mostly ends after a few passes, but may go in circles: where a fine side faces a coarser one, and round corners within
+   a facet, few nodes bear, and each relieves others. Where no pass in s->passes leaves fewer nodes that disagree than any before, or a set comes again, one
+   node alone switches, the last one, until fewer disagree: block principal pivoting with Murty's rule in reserve (J. J. Júdice, F. M. Pires, Computers &
+   Operations Research 21 (1994) 587), which ends for any linear complementarity problem whose matrix is positive definite. Where the tangent has negative
+   pivots beyond those of constraints it is not, and no set may agree: the tangent is made again at fixed directions then (frozennormals.c). Sets may come again
+   although one node at a time switches, with friction above all; the last linear step is taken. */
 #include "solveimpl.h"
 
 typedef struct {
