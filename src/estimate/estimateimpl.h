@@ -110,7 +110,7 @@ typedef struct {
 
 /* Buffers of one cell. */
 typedef struct {
-  PetscReal *X, *xi, *F, *P, *W, *J, *position, *weight, *g, *R, *S, *squares, *recovered; /* S, squares: of Div P (indicator.c) */
+  PetscReal *X, *xi, *F, *P, *W, *J, *position, *weight, *g, *R, *S, *recovered; /* S: EstimateInterior_Private */
 } CellWork;
 
 /* recover.c */

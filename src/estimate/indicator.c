@@ -74,13 +74,13 @@ static void Height_Private(PetscInt dim, PetscInt order, const PetscReal X[], Pe
 }
 
 /* Div P at Gauss point q: derivative of the tensor Lagrange polynomial, mapped by J^-1; axisymmetric: plus (P_rR - P_tt)/R, P_zR/R. S: the square of what each
-   axis adds to it over the cell's height along that axis; squares: the sum of those without the height. */
+   axis adds to it over a cell's length of that axis. */
 static void Divergence_Private(PetscInt dim, Model model, const VolumeTable *table, PetscInt q, const PetscReal *P, const PetscReal J[9], const PetscReal X[3],
-                               PetscReal div[3], PetscReal S[3], PetscReal *squares)
+                               PetscReal div[3], PetscReal S[3])
 {
   const PetscReal det = Det3(J);
 
-  div[0] = div[1] = div[2] = *squares = 0;
+  div[0] = div[1] = div[2] = 0;
   for (PetscInt d = 0, stride = 1; d < dim; ++d, stride *= table->n1) {
     const PetscInt i = q / stride % table->n1, a = (d + 1) % 3, b = (d + 2) % 3;
     PetscReal      gradient[3], dP[9] = {0};
@@ -97,7 +97,6 @@ static void Divergence_Private(PetscInt dim, Model model, const VolumeTable *tab
       const PetscReal part = Dot3(dP + 3 * c, gradient);
       div[c] += part;
       S[d] += PetscSqr(part) / Dot3(gradient, gradient);
-      *squares += PetscSqr(part);
     }
   }
   if (model == MODEL_AXISYMMETRIC) {
@@ -114,7 +113,7 @@ static PetscErrorCode Residual_Private(const EstimateSum *sum, const BodySpec *b
   PetscFunctionBegin;
   for (PetscInt q = 0; q < table->num; ++q) {
     PetscReal force;
-    Divergence_Private(dim, sum->spec->model, table, q, w->P, w->J + 9 * q, w->position + 3 * q, w->R + 3 * q, w->S + 3 * q, w->squares + q);
+    Divergence_Private(dim, sum->spec->model, table, q, w->P, w->J + 9 * q, w->position + 3 * q, w->R + 3 * q, w->S + 3 * q);
     for (PetscInt c = 0; c < dim; ++c) {
       if (!body->force[c]) continue;
       PetscCall(MechanicsValue(body->force[c], &body->amplitude, w->position + 3 * q, sum->time, &force));
@@ -186,19 +185,21 @@ static void Weights_Private(const EstimateSum *sum, const VolumeTable *table, Ce
   }
 }
 
-/* The square of the cell's height over which the residual varies: the mean over axes, by what each adds to it. Flat cells with the least one for all would tell
-   of what varies along their length by their thickness. The least one where axes add next to nothing (order 1), and in mixed cells, where most of what they add
-   is what the recovered pressure takes up. */
+/* The square of the cell's height over which the residual varies: the geometric mean of the heights by the squares of what each axis adds to it. Flat cells
+   with the least one for all would tell of what varies along their length by their thickness. The least one where axes add next to nothing (order 1), and in
+   mixed cells, where most of what they add is what the recovered pressure takes up. */
 static PetscReal Height2_Private(const EstimateSum *sum, const VolumeTable *table, PetscBool mixed, const CellWork *w, const PetscReal height[3])
 {
-  PetscReal whole = 0, squares = 0, least = height[0];
+  PetscReal squares[3] = {0, 0, 0}, whole = 0, mean = 0, least = height[0];
 
-  for (PetscInt q = 0; q < table->num; ++q) {
-    for (PetscInt d = 0; d < sum->v->dim; ++d) whole += w->weight[q] * w->S[3 * q + d];
-    squares += w->weight[q] * w->squares[q];
+  for (PetscInt d = 0; d < sum->v->dim; ++d) {
+    for (PetscInt q = 0; q < table->num; ++q) squares[d] += w->weight[q] * w->S[3 * q + d] / PetscSqr(height[d]);
+    whole += squares[d];
+    least = PetscMin(least, height[d]);
   }
-  for (PetscInt d = 1; d < sum->v->dim; ++d) least = PetscMin(least, height[d]);
-  return !mixed && table->order > 1 && squares > 0 ? whole / squares : PetscSqr(least);
+  if (mixed || table->order == 1 || !(whole > 0)) return PetscSqr(least);
+  for (PetscInt d = 0; d < sum->v->dim; ++d) mean += squares[d] / whole * PetscLogReal(height[d]);
+  return PetscExpReal(2 * mean);
 }
 
 /* Energy, interior residual and incompressibility of an owned cell. modulus: of its stiffest point. */
@@ -290,7 +291,7 @@ static PetscErrorCode WorkCreate_Private(const EstimateSum *sum, CellWork *w)
   const PetscInt points = most + sum->facets.most_points;
   PetscCall(
       PetscMalloc7(3 * most, &w->X, 3 * points, &w->xi, 3 * points, &w->position, 9 * points, &w->J, 9 * points, &w->F, 9 * points, &w->P, points, &w->W));
-  PetscCall(PetscMalloc6(most, &w->weight, 2 * most, &w->g, 3 * most, &w->R, 3 * most, &w->S, most, &w->squares, most, &w->recovered));
+  PetscCall(PetscMalloc5(most, &w->weight, 2 * most, &w->g, 3 * most, &w->R, 3 * most, &w->S, most, &w->recovered));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -298,7 +299,7 @@ static PetscErrorCode WorkDestroy_Private(CellWork *w)
 {
   PetscFunctionBegin;
   PetscCall(PetscFree7(w->X, w->xi, w->position, w->J, w->F, w->P, w->W));
-  PetscCall(PetscFree6(w->weight, w->g, w->R, w->S, w->squares, w->recovered));
+  PetscCall(PetscFree5(w->weight, w->g, w->R, w->S, w->recovered));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

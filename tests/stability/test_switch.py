@@ -61,12 +61,14 @@ ROWS = {
                lambda s: abs(1 + s["reaction"]["top"][1] / 1.812647), 1e-4, 0.99),
     "cycling": ("The active set changes once a linearisation, and cycles", "Newton iterations", "active set iterated", "-solve_active_set_passes 0",
                 "tests/verify/scenes/pressed_cylinder.yml -load_step 1", newton, 12, 60),
+    "circles": ("Active sets of one linear step go in circles (a stiff rounded punch on a soft layer)", "Newton iterations", "-solve_single_switches yes",
+                "-solve_single_switches no", "tests/gauntlet/layer_axi.yml -order 3", newton, 40, 80),
     "normals": ("Directions of gaps turn faster than facets", "Newton iterations", "-newton_frozen_normals auto", "-newton_frozen_normals off",
                 f"tests/verify/scenes/pressed_cylinder.yml -load_step 1 -body_plate_motion_y 0.13 {ALONE}", newton, 12, 20),
     "overshoot": ("Flow at a rounded edge: Newton's method overshoots", "Newton iterations", "-newton_line_search auto", "-newton_line_search off",
                   f"tests/gauntlet/upset.yml -load_end 0.05 {ALONE}", newton, 50, STOPS),
     "soft": ("The tangent of plastic flow is soft far from a solution", "1 - t / t asked for", "-newton_secant_flow auto", "-newton_secant_flow off",
-             f"tests/gauntlet/upset.yml -load_end 0.2 -load_step_min 0.05 {ALONE}", lambda s: 1 - s["t"] / 0.2, 1e-12, STOPS),
+             f"tests/gauntlet/upset.yml -load_end 0.3 -load_step 0.1 -load_step_min 0.1 {ALONE}", lambda s: 1 - s["t"] / 0.3, 1e-12, STOPS),
     "flow": ("Material that flowed is taken for elastic at the start of a step", "Newton iterations", "-newton_yield_edge auto", "-newton_yield_edge off",
              "inputs/necking.yml -load_end 0.1", newton, 55, 65),
     "slide": ("Contact slides over half a disc in one step", "Newton iterations", "-newton_slide_predictor auto", "-newton_slide_predictor off", SLIDE, newton, 15, 25),
@@ -82,8 +84,8 @@ ROWS = {
     "singular": ("A singular corner spoils uniform refinement", "error of the energy, fewer unknowns for ours", "adapted", "-adapt_tolerance 0 -mesh_refine 3",
                  "inputs/lshape.yml", lambda s: s["energy"] / 2.0545124437e-4 - 1, 8e-4, 2e-3),
 }
-# seconds each; soft and overlap are in tests/verify, test_modifiers.py (secant_flow) and test_overlap_start.py, and the die of corner in the gauntlet
-SLOW = ("stall", "snap", "rim", "cycling", "one_to_eight", "through", "overshoot", "normals", "corner", "soft", "overlap")
+# seconds each; circles is in test_active_set.py; soft and overlap are in tests/verify, test_modifiers.py (secant_flow) and test_overlap_start.py, and the die of corner in the gauntlet
+SLOW = ("circles", "stall", "snap", "rim", "cycling", "one_to_eight", "through", "overshoot", "normals", "corner", "soft", "overlap")
 
 
 @pytest.mark.parametrize("name", [pytest.param(name, marks=pytest.mark.slow) if name in SLOW else name for name in ROWS])
