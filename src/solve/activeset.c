@@ -4,7 +4,8 @@
    node alone switches, the last one, until fewer disagree: block principal pivoting with Murty's rule in reserve (J. J. Júdice, F. M. Pires, Computers &
    Operations Research 21 (1994) 587), which ends for any linear complementarity problem whose matrix is positive definite. Where the tangent has negative
    pivots beyond those of constraints it is not, and no set may agree: the tangent is made again at fixed directions then (frozennormals.c). Sets may come again
-   although one node at a time switches, with friction above all; the last linear step is taken. */
+   although one node at a time switches, with friction above all. Where nothing says that single switches end they do after s->passes in a row that leave no
+   fewer nodes in disagreement. Then the last linear step is taken. */
 #include "solveimpl.h"
 
 typedef struct {
@@ -49,7 +50,7 @@ static PetscErrorCode Switch_Private(Solver s, Passes *p, PetscBool single, Vec 
   s->report->single_switches += single && *disagree > 0;
   PetscCall(PetscInfo(s->snes, "active-set pass %" PetscInt_FMT ": %" PetscInt_FMT " nodes disagree%s\n", p->pass, *disagree, single ? ", one switches" : ""));
   if (*disagree >= p->least) {
-    p->idle = single ? s->passes : p->idle + 1;
+    p->idle = single ? PetscMax(p->idle, s->passes) + 1 : p->idle + 1;
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   p->least = *disagree;
@@ -82,7 +83,7 @@ PetscErrorCode SolverActiveSetSolve_Private(Solver s, PetscBool again, Vec dx, P
       PetscCall(PetscInfo(s->snes, "no active set agrees after %" PetscInt_FMT " passes, and the linearised problem is not convex\n", p.pass));
       break;
     }
-    if (single && !s->alone) break;
+    if (single && (!s->alone || (p.idle >= 2 * s->passes && !(convex && s->symmetric)))) break;
     PetscCall(Switch_Private(s, &p, single, dx, &disagree));
     if (disagree) PetscCall(StopAsked(PetscObjectComm((PetscObject)s->snes), &s->report->stopped));
   }
