@@ -185,34 +185,17 @@ static void Weights_Private(const EstimateSum *sum, const VolumeTable *table, Ce
   }
 }
 
-/* The square of the cell's height over which the residual varies: the geometric mean of the heights by the squares of what each axis adds to it. Flat cells
-   with the least one for all would tell of what varies along their length by their thickness. The least one where axes add next to nothing (order 1), and in
-   mixed cells, where most of what they add is what the recovered pressure takes up. */
-static PetscReal Height2_Private(const EstimateSum *sum, const VolumeTable *table, PetscBool mixed, const CellWork *w, const PetscReal height[3])
-{
-  PetscReal squares[3] = {0, 0, 0}, whole = 0, mean = 0, least = height[0];
-
-  for (PetscInt d = 0; d < sum->v->dim; ++d) {
-    for (PetscInt q = 0; q < table->num; ++q) squares[d] += w->weight[q] * w->S[3 * q + d] / PetscSqr(height[d]);
-    whole += squares[d];
-    least = PetscMin(least, height[d]);
-  }
-  if (mixed || table->order == 1 || !(whole > 0)) return PetscSqr(least);
-  for (PetscInt d = 0; d < sum->v->dim; ++d) mean += squares[d] / whole * PetscLogReal(height[d]);
-  return PetscExpReal(2 * mean);
-}
-
 /* Energy, interior residual and incompressibility of an owned cell. modulus: of its stiffest point. */
 static PetscErrorCode OwnedCell_Private(EstimateSum *sum, PetscInt cell, const VolumeTable *table, CellWork *w, const PetscReal height[3], PetscReal modulus)
 {
   const PetscInt      leaf     = sum->v->cell_leaf[cell];
   const MaterialSpec *material = sum->spec->bodies[sum->t->leaf_body[leaf]].material;
-  PetscReal           square;
+  PetscReal           h        = height[0], square;
 
   PetscFunctionBegin;
   for (PetscInt q = 0; q < table->num; ++q) sum->energy += w->weight[q] * w->W[q];
-  square = WeightedSquare_Private(table->num, 3, w->weight, w->R) * EstimateScale_Private(table->order) *
-           Height2_Private(sum, table, material->mixed, w, height) / (PetscSqr((PetscReal)table->order) * modulus);
+  for (PetscInt d = 1; d < sum->v->dim; ++d) h = PetscMin(h, height[d]);
+  square = WeightedSquare_Private(table->num, 3, w->weight, w->R) * EstimateScale_Private(table->order) * PetscSqr(h / table->order) / modulus;
   sum->eta2[leaf] += square;
   sum->part[PART_INTERIOR] += square;
   EstimateInterior_Private(sum, leaf, table->num, w->weight, w->S, square);

@@ -61,9 +61,10 @@ static PetscErrorCode Switch_Private(Solver s, Passes *p, PetscBool single, Vec 
 
 PetscErrorCode SolverActiveSetSolve_Private(Solver s, PetscBool again, Vec dx, PetscBool *settled)
 {
-  Passes    p        = {.least = PETSC_MAX_INT};
-  PetscInt  disagree = 1;
-  PetscBool convex   = PETSC_TRUE, seen;
+  Passes          p        = {.least = PETSC_MAX_INT};
+  PetscInt        disagree = 1;
+  PetscBool       convex   = PETSC_TRUE, seen;
+  const PetscBool smooth   = (PetscBool)(s->form.pressures_first || !InterfaceSlips(ProblemInterface(s->problem)));
 
   PetscFunctionBegin;
   s->bent = PETSC_FALSE;
@@ -83,7 +84,7 @@ PetscErrorCode SolverActiveSetSolve_Private(Solver s, PetscBool again, Vec dx, P
       PetscCall(PetscInfo(s->snes, "no active set agrees after %" PetscInt_FMT " passes, and the linearised problem is not convex\n", p.pass));
       break;
     }
-    if (single && (!s->alone || (p.idle >= 2 * s->passes && !(convex && s->symmetric)))) break;
+    if (single && (!s->alone || (p.idle >= 2 * s->passes && !(convex && smooth)))) break;
     PetscCall(Switch_Private(s, &p, single, dx, &disagree));
     if (disagree) PetscCall(StopAsked(PetscObjectComm((PetscObject)s->snes), &s->report->stopped));
   }
