@@ -213,7 +213,7 @@ PetscErrorCode SolverSolve(Solver s, State *state, SolverReport *report)
   s->pressure     = state->pressure;
   s->num_pressure = state->num_pressure;
   if (s->balance && !s->end) PetscCall(PetscMalloc1(s->num_pressure, &s->end));
-  s->form = state->form;
+  s->form = state->form = FormPlain(PETSC_FALSE); /* that of the last equilibrium, with a frozen segmentation, say, is no part of the next one */
   PetscCall(ProblemSetState(s->problem, state));
   PetscCall(SNESSolve(s->snes, NULL, state->x));
   state->form = FormPlain(s->form.frozen_segmentation);

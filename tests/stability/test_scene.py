@@ -271,7 +271,7 @@ def test_fold(run, told):
     told("no" if pair.summary["contact"]["gap"]["min_gap"] > -1e-3 else "yes", "yes; a warning says so" if said else "yes")
     assert pair.returncode == 0 and pair.summary["contact"]["gap"]["min_gap"] > -1e-3 and pair.summary["contact"]["gap"]["max_pressure"] > 0
     assert none.returncode == 0 and said
-    for step in (0.05, 0.02):
+    for step in (0.05, 0.01):
         finer = run("fold.yml", "-load_end", 0.75, "-load_step", step, *QUIET, text=text)
         assert finer.returncode == 0 and finer.summary["energy"] == pytest.approx(pair.summary["energy"], rel=1e-9)
 
