@@ -50,15 +50,17 @@ const char *SolverNearestOption(const char *name);
 PetscErrorCode SolverPrintHelp(MPI_Comm);
 
 /* Solve at the problem's current time, starting from state (x, pressure), which is changed. The prescribed motion not yet applied enters the first linear
-   solve. Active sets that repeat are noticed: of the passes of one linearisation the least contradicted set is taken; Newton iterates that repeat fail at
+   solve. Active sets that repeat are noticed: passes of one linearisation that get no further switch one node at a time; Newton iterates that repeat fail at
    once, so that the load step is cut. A request to stop (StopAsked) is heard before each factorisation. Failure is a report, not an error: the state is then of
    no use (restore a copy). */
 PetscErrorCode SolverSolve(Solver, State *, SolverReport *);
 /* From now on slide_predictor carries the bodies of pairs with friction where else it would not, and does not where it would; plastic material begins elastic
    and goes on with its secant stiffness. Not collective. */
 void SolverSwapPredictor(Solver, PetscBool swap);
+/* keep: from now on a solve whose segmentation would be frozen on the way is given up instead. Not collective. */
+void SolverKeepForm(Solver, PetscBool keep);
 
-/* The same, where SolverSolve finds nothing, by descent: from the state at the start of the step, with the prescribed motion put in by the bodies alone, down
+/* As SolverSolve, where that finds nothing, by descent: from the state at the start of the step, with the prescribed motion put in by the bodies alone, down
    to a minimum of the augmented Lagrangian (ProblemMerit), each iterate lower than the one before; multipliers follow; then SolverSolve from there, as a rule
    after one descent or two. Slow, and nothing cycles. Collective. */
 PetscErrorCode SolverDescend(Solver, State *, SolverReport *);

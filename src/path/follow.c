@@ -86,6 +86,18 @@ PetscErrorCode PathFound(Path *p, const PathLoop *loop, const PetscReal from[], 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* The segmentation of a state may be frozen. In space lines that lie on sides stay there: so does the form. In the plane ends go over a side and on: each piece
+   begins without, and what it freezes again is begun again with it (recovery `segmentation`). */
+static void Form_Private(Path *p, const PathLoop *loop)
+{
+  State          *state = &p->level->state;
+  const PetscBool plane = (PetscBool)(HPSpaceGetTables(ProblemSpace(p->level->problem))->dim == 2);
+  const PetscBool anew  = (PetscBool)(plane && state->form.frozen_segmentation && !p->form_kept);
+
+  if (anew) state->form.frozen_segmentation = PETSC_FALSE;
+  SolverKeepForm(p->level->solver, (PetscBool)(anew && loop->step && p->recovery[PATH_SEGMENTATION].mode != RECOVERY_OFF));
+}
+
 PetscErrorCode PathAttempt(Path *p, const PathLoop *loop, PetscReal to, SolverReport *report)
 {
   const MPI_Comm comm = ForestComm(p->level->forest);
@@ -97,6 +109,7 @@ PetscErrorCode PathAttempt(Path *p, const PathLoop *loop, PetscReal to, SolverRe
   PetscCall(PathFrom(p, &from));
   PetscCall(loop->metric->set(p, loop, to));
   PetscCall(ExpressionTrouble(comm, &words)); /* of prescribed motion and dead loads; the others are asked for on the way */
+  Form_Private(p, loop);
   if (!words) {
     PetscCall(SolverSolve(p->level->solver, &p->level->state, report));
     PathCount(p, report, (PetscBool)(loop->metric->load || to >= loop->stop));

@@ -19,19 +19,22 @@ static PetscErrorCode Begin_Private(Path *p, const State *guess)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* ---- segmentation no longer frozen ------------------------------------------------------------------------------------------------- */
+/* ---- the other form of contact forces ---------------------------------------------------------------------------------------------- */
 
 static PetscBool IsFrozen_Private(const Path *p, const State *guess)
 {
   return guess ? guess->form.frozen_segmentation : p->level->accepted.form.frozen_segmentation;
 }
 
-static PetscErrorCode Unfreeze_Private(Path *p, const PathLoop *load, PetscReal to, const State *guess, SolverReport *report)
+/* In space the attempt that failed began with a frozen segmentation, in the plane without (PathAttempt). */
+static PetscErrorCode Segmentation_Private(Path *p, const PathLoop *load, PetscReal to, const State *guess, SolverReport *report)
 {
   PetscFunctionBegin;
   PetscCall(Begin_Private(p, guess));
-  p->level->state.form.frozen_segmentation = PETSC_FALSE;
+  p->level->state.form.frozen_segmentation = (PetscBool)(HPSpaceGetTables(ProblemSpace(p->level->problem))->dim == 2);
+  p->form_kept                             = PETSC_TRUE;
   PetscCall(PathAttempt(p, load, to, report));
+  p->form_kept = PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -152,7 +155,9 @@ static PetscErrorCode Viscous_Private(Path *p, const PathLoop *load, PetscReal t
 /* ---- the table --------------------------------------------------------------------------------------------------------------------- */
 
 const Recovery PathRecoveries[PATH_RECOVERIES] = {
-    {"unfreeze", "once more from the start of the step, with the segmentation of contact no longer frozen", 0, IsFrozen_Private, Unfreeze_Private},
+    [PATH_SEGMENTATION] = {"segmentation",
+                           "the segmentation of contact is frozen: once more from the start of the step, in space without, in the plane with it", 0,
+                           IsFrozen_Private, Segmentation_Private},
     {"cut", "on another mesh, the way of the load from the accepted state again, in pieces", 0, IsCarried_Private, Cut_Private},
     {"overlap", "overlap that bodies at rest begin with is taken away in pieces, the deepest place first", 0, IsAtRest_Private, Overlap_Private},
     {"predictor", "once more with the other predictor: with friction, bodies carried to their new places first, or not; plastic material first elastic", 0,

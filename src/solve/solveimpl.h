@@ -78,6 +78,7 @@ struct _p_Solver {
   uint64_t      circle;    /* in which the active sets of the last linear step went, 0: none */
   PetscBool     bent;      /* no set was found that agrees with the last linear step, whose problem is not convex */
   PetscBool     swap;      /* SolverSwapPredictor */
+  PetscBool     keep;      /* SolverKeepForm */
   PetscReal     step;      /* share of the last linear step that was gone */
   Course        course;    /* of this solve */
   PetscInt      negative;  /* pivots of the last factor of this solve beyond those of constraints, -1: not known */

@@ -188,6 +188,11 @@ void SolverSwapPredictor(Solver s, PetscBool swap)
   s->swap = swap;
 }
 
+void SolverKeepForm(Solver s, PetscBool keep)
+{
+  s->keep = keep;
+}
+
 PetscErrorCode SolverDestroy(Solver *solver)
 {
   Solver s = *solver;
@@ -213,7 +218,7 @@ PetscErrorCode SolverSolve(Solver s, State *state, SolverReport *report)
   s->pressure     = state->pressure;
   s->num_pressure = state->num_pressure;
   if (s->balance && !s->end) PetscCall(PetscMalloc1(s->num_pressure, &s->end));
-  s->form = state->form = FormPlain(PETSC_FALSE); /* that of the last equilibrium, with a frozen segmentation, say, is no part of the next one */
+  s->form = state->form;
   PetscCall(ProblemSetState(s->problem, state));
   PetscCall(SNESSolve(s->snes, NULL, state->x));
   state->form = FormPlain(s->form.frozen_segmentation);
