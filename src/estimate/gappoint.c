@@ -62,11 +62,12 @@ static PetscErrorCode MeanBulge_Private(const EstimateSum *sum, const SurfaceVie
 }
 
 /* Where the ray from x along n meets a mortar facet at these positions, from a place eta near it: t0 d0 + t1 d1 - g n = x - y by Newton's method. Segments are
-   seen along the directions of the corners, not along n, so across a wide gap the ray may pass the facet by: then the nearest place of it. Met on the facet
-   continued it would tell of an overlap that is none. */
-static void Ray_Private(const SurfaceView *s, const PetscReal positions[], PetscInt facet, const PetscReal x[3], const PetscReal n[3], PetscReal eta[2])
+   seen along the directions of the corners, not along n, so across a wide gap the ray may pass the facet by (PETSC_FALSE): then the nearest place of it. Met
+   on the facet continued it would tell of an overlap that is none. */
+static PetscBool Ray_Private(const SurfaceView *s, const PetscReal positions[], PetscInt facet, const PetscReal x[3], const PetscReal n[3], PetscReal eta[2])
 {
   const PetscReal most[2] = {PetscMax(1, PetscAbsReal(eta[0])), PetscMax(1, PetscAbsReal(eta[1]))};
+  PetscBool       met     = PETSC_FALSE;
 
   for (PetscInt iteration = 0; iteration < 3; ++iteration) {
     PetscReal N[SURFACE_MOST_NODES], y[3], t[2][3], a[3], b[3];
@@ -77,11 +78,13 @@ static void Ray_Private(const SurfaceView *s, const PetscReal positions[], Petsc
     Cross3(t[1], n, a);
     Cross3(n, t[0], b);
     const PetscReal det = Dot3(t[0], a);
-    if (det == 0) return;
+    if (det == 0) return PETSC_FALSE;
     eta[0] += Dot3(y, a) / det;
     if (s->dim == 3) eta[1] += Dot3(y, b) / det;
+    met = (PetscBool)(PetscAbsReal(eta[0]) <= most[0] && PetscAbsReal(eta[1]) <= most[1]);
     for (PetscInt d = 0; d < 2; ++d) eta[d] = PetscClipInterval(eta[d], -most[d], most[d]);
   }
+  return met;
 }
 
 /* With small kinematics contact is linearised at the reference positions, where gaps may be open, with directions and measure held: not the gap of the
@@ -114,13 +117,23 @@ static PetscBool IsAdjusted_Private(const ContactTerm *term)
   return (PetscBool)(IsTied_Private(term) || term->view->spec->adjust);
 }
 
-/* What of the gap at the start counts as none, as the nodes show it. */
-static PetscReal InitialGap_Private(const ContactView *v, PetscInt facet, const PetscReal N[])
+/* What of the gap at the start counts as none, where initial_gap: adjust closes it: that of the mesh at the point, as sides of other divisions of a circle
+   have it, on the mortar facet that is met now; where the ray met another one, as the nodes show it. */
+static PetscReal InitialGap_Private(const ContactTerm *term, const ContactSegment *segment, const PetscReal xi[2], const PetscReal N[], const PetscReal eta[2])
 {
-  const PetscInt *node, num = SurfaceFacetNodes(&v->nonmortar, facet, &node);
-  PetscReal       gap = 0;
+  const SurfaceView *s = &term->view->nonmortar, *m = &term->view->mortar;
+  const PetscInt    *node, num                      = SurfaceFacetNodes(s, segment->facet, &node);
+  PetscReal          place[2] = {eta[0], eta[1]}, n[3], X[3], Y[3], M[SURFACE_MOST_NODES], gap = 0;
 
-  for (PetscInt a = 0; a < num; ++a) gap += N[a] * v->initial_gap[node[a]];
+  if (!term->view->spec->adjust) return 0;
+  ContactNormal_Private(term, PETSC_FALSE, segment->facet, xi, N, n);
+  ContactPosition_Private(s, segment->facet, s->X, N, X);
+  if (Ray_Private(m, m->X, segment->mortar_facet, X, n, place)) {
+    ContactShape_Private(m, segment->mortar_facet, place, M);
+    ContactPosition_Private(m, segment->mortar_facet, m->X, M, Y);
+    return Dot3(n, Y) - Dot3(n, X);
+  }
+  for (PetscInt a = 0; a < num; ++a) gap += N[a] * term->view->initial_gap[node[a]];
   return gap;
 }
 
@@ -141,7 +154,7 @@ static void Gap_Private(const EstimateSum *sum, const ContactTerm *term, const C
   ContactShape_Private(s, segment->facet, center, M);
   ContactNormal_Private(term, finite, segment->facet, center, M, middle);
   p->gap = finite ? Dot3(n, y) - Dot3(n, x) : LinearGap_Private(m, segment->mortar_facet, eta, n, X, x);
-  p->gap -= term->view->interference + InitialGap_Private(term->view, segment->facet, N);
+  p->gap -= term->view->interference + InitialGap_Private(term, segment, p->xi, N, eta);
   p->height = Dot3(middle, y);
 }
 
@@ -295,18 +308,6 @@ static PetscErrorCode AddPart_Private(const EstimateSum *sum, const ContactTerm 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* initial_gap: adjust counts the gaps of the mesh as closed, which leaves what differs from their mean. */
-static void Adjust_Private(GapPoints *points)
-{
-  PetscReal area = 0, mean = 0;
-
-  for (PetscInt i = 0; i < points->num; ++i) {
-    area += points->points[i].weight;
-    mean += points->points[i].weight * (points->points[i].gap - points->points[i].nodal);
-  }
-  for (PetscInt i = 0; i < points->num && area > 0; ++i) points->points[i].gap -= mean / area;
-}
-
 PetscErrorCode GapPointsFind_Private(const EstimateSum *sum, const ContactTerm *term, PetscInt num, const ContactSegment segments[], GapPoints *points)
 {
   PetscReal mean[2] = {0, 0};
@@ -324,7 +325,6 @@ PetscErrorCode GapPointsFind_Private(const EstimateSum *sum, const ContactTerm *
   }
   for (PetscInt i = 0; i < points->num; ++i) unseen = (PetscBool)(unseen && points->points[i].gap >= 0);
   for (PetscInt i = 0; i < num && term->bare; ++i) PetscCall(AddCorners_Private(sum, term, &segments[i], unseen, mean, points));
-  if (IsAdjusted_Private(term) && !IsTied_Private(term)) Adjust_Private(points);
   if (IsTied_Private(term) && term->view->spec->close) Close_Private(points);
   for (PetscInt i = 0; i < points->num && IsTied_Private(term); ++i)
     points->points[i].gap = PetscSqrtReal(Dot3(points->points[i].jump, points->points[i].jump));

@@ -55,6 +55,16 @@ def test_o45_gaps_kept_matter(run):
     assert mean < 0.01 and result.summary["contact"]["fit"]["adjusted_gap"] == 0
 
 
+@pytest.mark.parametrize("order", [1, 2, 3])
+def test_estimate_with_gaps_adjusted(run, order):
+    """What facets of other divisions leave of gaps is no error, for it counts as closed, point by point: the estimate is the error in the energy norm within a factor of 3."""
+    fine = run("inputs/shrinkfit.yml", "-order", 4, "-mesh_refine", 1, "-adapt_tolerance", 0, *QUIET).summary["energy"]
+    summary = run("inputs/shrinkfit.yml", "-order", order, "-adapt_tolerance", 0, *QUIET).summary
+    error = math.sqrt((summary["energy"] - fine) / fine)
+    print(summary["estimated_error"], error)
+    assert 1 / 3 < summary["estimated_error"] / error < 3
+
+
 def test_fine_side_on_a_coarse_curved_one(run):
     """The nonmortar side 4 times as fine as the curved mortar side: with gaps adjusted the pressure is that of polynomial faces (straight pieces of them would leave percents at any order);
     gaps kept are misfits of the two images of the circle, h^3 at order 2, and pressures of at least h^2."""
