@@ -1,10 +1,12 @@
 /* Do bodies of a contact pair lie inside each other where the pair bears nothing? Contact that is lost, by a motion across a whole body in one step say,
    opposes no further motion, and what is found then is no solution. Of the pairs that bear nothing some places of either side (or of its body's boundary), and
-   places as far behind them in their own body as their facet is long, are looked at: lines from a place inside a body leave it an odd number of times, whatever
-   their direction. */
+   places behind them in their own body, are looked at: as far behind as their facet is long, or half, a quarter, an eighth of that where the body ends before,
+   as a tip does. Lines from a place inside a body leave it an odd number of times, whatever their direction. */
 #include "diagnoseimpl.h"
 
-#define SAMPLES 32 /* places of one side of a pair on a rank */
+#define SAMPLES 32 /* facets of one side of a pair on a rank */
+
+enum { DEPTHS = 5 }; /* places of one facet: on it, and behind it, the farthest first */
 
 const PetscReal LinesAlong_Private[2][3] = {{0.7548776662, 0.5698402910, 0.3247179572}, {-0.4142135624, 0.7320508076, -0.6180339887}};
 
@@ -46,7 +48,7 @@ static PetscBool IsOf_Private(const Look *l, const Piece *p, PetscInt k)
   return (PetscBool)((p->groups & PairGroup_Private(&l->s.scene->contacts[k / 2], k % 2)) != 0);
 }
 
-/* Places of this rank, two to a piece: on it, and behind it in its own body. */
+/* Places of this rank, DEPTHS to a piece. */
 static void Places_Private(const Look *l, const PetscInt bare[], PetscInt *num, Place place[])
 {
   const Pieces *s = &l->s;
@@ -60,37 +62,58 @@ static void Places_Private(const Look *l, const PetscInt bare[], PetscInt *num, 
     for (PetscInt i = 0; i < s->num; ++i) {
       const Piece *p = &s->piece[i];
       if (!IsOf_Private(l, p, k) || seen++ % every) continue;
-      for (PetscInt behind = 0; behind < 2; ++behind) {
-        Place *to = &place[(*num)++];
-        *to       = (Place){.pair = k / 2, .side = k % 2, .part = p->part};
+      for (PetscInt d = 0; d < DEPTHS; ++d) {
+        Place          *to    = &place[(*num)++];
+        const PetscReal depth = d ? 2 * p->size / (PetscReal)(1 << d) : 0;
+        *to                   = (Place){.pair = k / 2, .side = k % 2, .part = p->part};
         PieceMiddle_Private(s->dim, p->x, to->x);
-        for (PetscInt c = 0; c < 3; ++c) to->x[c] -= (PetscReal)behind * p->size * p->N[c];
+        for (PetscInt c = 0; c < 3; ++c) to->x[c] -= depth * p->N[c];
       }
     }
   }
 }
 
-/* odd[place]: it lies inside a part with the other side of its pair that is not of its own side too; of one surface, inside another part than its own.
-   Collective. */
+/* How often lines from places leave their own part (crossed[4 place + line]), and parts with the other side of their pair that are not of their own side too
+   (crossed[4 place + 2 + line]); of one surface, other parts than their own. Collective. */
 static PetscErrorCode Count_Private(const Look *l, MPI_Comm comm, PetscInt num, const Place place[], PetscInt crossed[])
 {
   const Pieces  *s       = &l->s;
   const PetscInt columns = 2 * s->scene->num_contacts;
 
   PetscFunctionBegin;
-  PetscCall(PetscArrayzero(crossed, 2 * num));
+  PetscCall(PetscArrayzero(crossed, 4 * num));
   for (PetscInt i = 0; i < s->num; ++i) {
-    const Piece  *p   = &s->piece[i];
-    const int8_t *own = l->is + columns * p->part;
+    const Piece  *p  = &s->piece[i];
+    const int8_t *of = l->is + columns * p->part; /* sides that its part has */
     for (PetscInt k = 0; k < num; ++k) {
-      const PetscInt at = 2 * place[k].pair;
-      if (!own[at + 1 - place[k].side]) continue;
-      if (s->scene->contacts[place[k].pair].self ? p->part == place[k].part : own[at + place[k].side]) continue;
-      for (PetscInt d = 0; d < 2; ++d) crossed[2 * k + d] += LineCrosses_Private(s->dim, p, place[k].x, LinesAlong_Private[d]);
+      const PetscInt  at    = 2 * place[k].pair;
+      const PetscBool mine  = (PetscBool)(p->part == place[k].part);
+      const PetscBool own   = s->scene->contacts[place[k].pair].self ? mine : (PetscBool)(of[at + place[k].side] != 0);
+      const PetscBool other = (PetscBool)(of[at + 1 - place[k].side] && !own);
+      for (PetscInt d = 0; d < 2 && (mine || other); ++d) {
+        const PetscBool crosses = LineCrosses_Private(s->dim, p, place[k].x, LinesAlong_Private[d]);
+        crossed[4 * k + d] += mine && crosses;
+        crossed[4 * k + 2 + d] += other && crosses;
+      }
     }
   }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, crossed, (PetscMPIInt)(2 * num), MPIU_INT, MPI_SUM, comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, crossed, (PetscMPIInt)(4 * num), MPIU_INT, MPI_SUM, comm));
   PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Does the place whose counts these are lie inside, as both lines say? */
+static PetscBool IsIn_Private(const PetscInt crossed[2])
+{
+  return (PetscBool)(crossed[0] % 2 && crossed[1] % 2);
+}
+
+/* crossed[4 DEPTHS]: of the places of a piece. The one on it, and the farthest behind it that is in its own body, are they inside another? */
+static PetscBool PieceIsIn_Private(const PetscInt crossed[])
+{
+  PetscInt d = 1;
+
+  while (d < DEPTHS && !IsIn_Private(crossed + 4 * d)) ++d;
+  return (PetscBool)(d < DEPTHS && IsIn_Private(crossed + 2) && IsIn_Private(crossed + 4 * d + 2));
 }
 
 /* within[pair]: one of its places lies inside the other body. */
@@ -101,14 +124,13 @@ static PetscErrorCode Find_Private(const Look *l, MPI_Comm comm, const PetscInt 
 
   PetscFunctionBegin;
   for (PetscInt i = 0; i < l->s.scene->num_contacts; ++i) within[i] = PETSC_FALSE;
-  PetscCall(PetscMalloc1(4 * SAMPLES * l->s.scene->num_contacts, &mine));
+  PetscCall(PetscMalloc1(2 * DEPTHS * SAMPLES * l->s.scene->num_contacts, &mine));
   Places_Private(l, bare, &num_mine, mine);
   PetscCall(GatherAll(comm, num_mine, sizeof(Place), mine, &num, &all));
-  PetscCall(PetscMalloc1(2 * num, &crossed));
+  PetscCall(PetscMalloc1(4 * num, &crossed));
   PetscCall(Count_Private(l, comm, num, all, crossed));
-  for (PetscInt k = 0; k + 1 < num; k += 2) {
-    if (crossed[2 * k] % 2 && crossed[2 * k + 1] % 2 && crossed[2 * k + 2] % 2 && crossed[2 * k + 3] % 2) within[all[k].pair] = PETSC_TRUE;
-  }
+  for (PetscInt k = 0; k < num; k += DEPTHS)
+    if (PieceIsIn_Private(crossed + 4 * k)) within[all[k].pair] = PETSC_TRUE;
   PetscCall(PetscFree(crossed));
   PetscCall(PetscFree(mine));
   PetscCall(PetscFree(all));

@@ -72,6 +72,29 @@ def test_sides_that_passed_each_other(run, tmp_path, aside):
     assert any("pair c lie inside each other" in text for text in result.summary["warnings"]), result
 
 
+TIPS = """
+Point(1) = {0, 0, 0, 0.15}; Point(2) = {1, 0.9, 0, 0.15}; Point(3) = {1, 1.4, 0, 0.15}; Point(4) = {0, 1.4, 0, 0.15};
+Point(5) = {0, -1.4, 0, 0.15}; Point(6) = {1, -1.4, 0, 0.15}; Point(7) = {1, -0.9, 0, 0.15}; Point(8) = {0, 0, 0, 0.15};
+For i In {0:1}
+  For j In {1:4}
+    Line(4 * i + j) = {4 * i + j, 4 * i + 1 + j % 4};
+  EndFor
+  Curve Loop(1 + i) = {4 * i + 1:4 * i + 4}; Plane Surface(1 + i) = {1 + i}; Recombine Surface{1 + i};
+EndFor
+Physical Surface("a") = {1}; Physical Surface("b") = {2};
+Physical Curve("as") = {1, 2}; Physical Curve("at") = {3}; Physical Curve("axis") = {4, 8}; Physical Curve("bb") = {5}; Physical Curve("bs") = {6, 7};
+"""
+
+
+def test_tip_on_tip(run, tmp_path):
+    """Halves of two wedges on a symmetry plane, whose flanks do not face each other: one goes into the other, where a tip is thinner than its facets are long."""
+    (tmp_path / "tips.geo").write_text(TIPS)
+    text = json.dumps({"mesh": {"file": "tips.geo"}, "model": "plane_strain", "order": 2, "body": {"a": {"material": "m"}, "b": {"material": "m"}}, "material": {"m": RUBBER},
+                       "boundary": {"axis": {"fix": "x"}, "at": {"displacement": {"y": -0.3}}, "bb": {"fix": "y"}}, "contact": {"c": {"nonmortar": "as", "mortar": "bs"}}})
+    told = run("tips.yml", "-load_step_min", 0.1, "-path_viscous", "off", "-output_fields", "false", text=text)
+    assert told.returncode == 2 and told.summary["refused_solutions"] > 0 and "inside each other" in told.stdout, told
+
+
 ARM = """
 Point(1) = {0, 0, 0}; Point(2) = {2, 0, 0}; Point(3) = {2, 0.2, 0}; Point(4) = {1.7, 0.2, 0}; Point(5) = {1.7, 1.2, 0}; Point(6) = {1.5, 1.2, 0};
 Point(7) = {1.5, 0.2, 0}; Point(8) = {0.2, 0.2, 0}; Point(9) = {0.2, 0.62, 0}; Point(10) = {1.3, 0.62, 0}; Point(11) = {1.3, 0.83, 0}; Point(12) = {0, 0.83, 0};
