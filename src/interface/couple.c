@@ -150,8 +150,8 @@ PetscErrorCode ContactCreate_Private(Interface p, const ContactSpec *spec, Conta
   c->spec = spec;
   c->law  = ContactLaws[spec->law];
   c->num  = c->law->num_multipliers(p->dim);
-  PetscCall(SurfaceCreate_Private(p, &own, &c->side[0]));
-  PetscCall(SurfaceCreate_Private(p, &other, &c->side[1]));
+  PetscCall(SurfaceCreate_Private(p, spec->name, &own, &c->side[0]));
+  PetscCall(SurfaceCreate_Private(p, spec->name, &other, &c->side[1]));
   const PetscBool higher = (PetscBool)(c->side[0].higher || c->side[1].higher);
   c->side[0].higher = c->side[1].higher = higher;
   PetscCall(ContactPairCreate(p->dim, axisymmetric, spec, &c->pair));

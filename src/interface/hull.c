@@ -65,7 +65,7 @@ PetscErrorCode InterfaceUntoldOverlap(Interface p, PetscInt pair, PetscBool refe
 
   PetscFunctionBegin;
   *depth = 0;
-  if (c->tie) PetscFunctionReturn(PETSC_SUCCESS);
+  if (c->tie || c->spec->self) PetscFunctionReturn(PETSC_SUCCESS); /* a surface that may meet itself sees its own far side all along */
   HullDepth_Private(p, c, &deepest);
   if (!(deepest > 0) || c->spec->see_through) PetscFunctionReturn(PETSC_SUCCESS);
   ContactPairSetHull(c->pair, p->hull, c->part[0], c->part[1], 2 * deepest);

@@ -252,7 +252,7 @@ typedef struct {
   PetscInt      group, colour;
   const int8_t *face;
 } SurfaceFacets;
-PetscErrorCode SurfaceCreate_Private(Interface, const SurfaceFacets *, Surface *);
+PetscErrorCode SurfaceCreate_Private(Interface, const char *pair, const SurfaceFacets *, Surface *);
 /* lattice.c: after the corners: nodes on the lattices of the facets, rows of those that hang. */
 PetscErrorCode SurfaceLattice_Private(HPSpace, const ForestTables *, Surface *);
 /* Nodes of a facet's lattice; returns their number. */

@@ -147,10 +147,20 @@ static PetscErrorCode SurfaceNeighbours_Private(Surface *s)
   for (PetscInt f = 0; f < s->num_facets; ++f) {
     for (PetscInt k = s->true_first[f]; k < s->true_first[f + 1]; ++k) s->node_facet[s->node_first[s->true_node[k] + 1]++] = f;
   }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* In the plane a surface is a line. */
+static PetscErrorCode Line_Private(const Surface *s, const char *pair)
+{
+  PetscFunctionBegin;
   for (PetscInt n = 0; s->dim == 2 && n < s->num_nodes; ++n) {
     const PetscInt *at = s->node_facet + s->node_first[n], num = s->node_first[n + 1] - s->node_first[n];
-    PetscCheckInput(num == 1 || (num == 2 && (s->facets[2 * at[0]] == n) != (s->facets[2 * at[1]] == n)),
-                    "contact: a surface branches at one of its points, or runs through it twice; give its parts names of their own");
+    PetscCheckInput(
+        num == 1 || (num == 2 && (s->facets[2 * at[0]] == n) != (s->facets[2 * at[1]] == n)),
+        "contact.%s: a side branches at (%g, %g), or runs through it twice; where the mesh should not have it so look at its lines there, else give "
+        "the parts of the side names of their own",
+        pair, (double)s->X[2 * n], (double)s->X[2 * n + 1]);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -184,7 +194,7 @@ static PetscErrorCode Met_Private(const ForestTables *t, const SurfaceFacets *of
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SurfaceCreate_Private(Interface p, const SurfaceFacets *of, Surface *s)
+PetscErrorCode SurfaceCreate_Private(Interface p, const char *pair, const SurfaceFacets *of, Surface *s)
 {
   const ForestTables *t = p->tables;
 
@@ -195,6 +205,7 @@ PetscErrorCode SurfaceCreate_Private(Interface p, const SurfaceFacets *of, Surfa
   PetscCall(SurfaceTrue_Private(s));
   PetscCall(SurfaceNeighbours_Private(s));
   PetscCall(SurfaceFields_Private(p, s));
+  PetscCall(Line_Private(s, pair));
   if (of->face) PetscCall(Rim_Private(t, of, s));
   if (of->face) PetscCall(Met_Private(t, of, s));
   PetscFunctionReturn(PETSC_SUCCESS);
