@@ -1,4 +1,4 @@
-/* Loads: dead tractions and body forces (evaluated once for each time), follower pressures. */
+/* Loads: dead tractions and body forces, evaluated once for each time, as follower pressures that depend on the place are; follower pressures. */
 #include "mechanicsimpl.h"
 
 PetscInt MechanicsOutwardSign_Private(PetscInt side)
@@ -27,7 +27,8 @@ PetscErrorCode MechanicsLoadFacets_Private(Mechanics m)
 
   PetscFunctionBegin;
   for (PetscInt pass = 0; pass < 2; ++pass) {
-    m->num_facets = 0;
+    PetscInt num_pressures = 0;
+    m->num_facets          = 0;
     for (PetscInt c = 0; c < v->num_owned_cells; ++c) {
       const PetscInt *cl = t->closure + t->closure_offset[t->first[t->dim] + v->cell_leaf[c]];
       if (m->cell_group[c] < 0) continue;
@@ -35,12 +36,16 @@ PetscErrorCode MechanicsLoadFacets_Private(Mechanics m)
         const uint64_t groups = t->boundary[cl[SideIndex_Private(m->dim, side)]];
         for (PetscInt b = 0; groups && b < m->spec->num_boundaries; ++b) {
           if (!((groups >> m->spec->boundaries[b].group) & 1) || !HasLoad_Private(&m->spec->boundaries[b])) continue;
-          if (pass) m->facets[m->num_facets] = (LoadFacet){c, side, b};
+          const PetscInt  np     = FacetNumPoints(m->dim, m->groups[m->cell_group[c]].order);
+          const PetscBool varies = (PetscBool)(m->spec->boundaries[b].pressure && ExpressionUsesPlace(m->spec->boundaries[b].pressure));
+          if (pass) m->facets[m->num_facets] = (LoadFacet){c, side, b, varies ? num_pressures : -1};
           m->num_facets++;
+          num_pressures += varies ? np : 0;
         }
       }
     }
     if (!pass) PetscCall(PetscMalloc1(m->num_facets, &m->facets));
+    if (!pass) PetscCall(PetscCalloc1(num_pressures, &m->pressures));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -73,22 +78,36 @@ static void PutTrace_Private(PetscInt dim, PetscInt num, const PetscInt nodes[],
     for (PetscInt c = 0; c < dim; ++c) cell[nodes[i] * dim + c] = trace[i * dim + c];
 }
 
+/* A load at the points of a facet. */
+static PetscErrorCode Values_Private(Mechanics m, PetscInt order, const PetscReal trace[], const LoadExpression *load, PetscReal value[])
+{
+  const PetscReal origin[3] = {0, 0, 0};
+
+  PetscFunctionBegin;
+  if (ExpressionUsesPlace(load->expression)) {
+    PetscCall(MechanicsLoadMoments_Private(m->dim, order, trace, load, m->t, value));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  PetscCall(MechanicsValue(load->expression, load->amplitude, origin, m->t, &value[0]));
+  for (PetscInt q = 1; q < FacetNumPoints(m->dim, order); ++q) value[q] = value[0];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode FacetTraction_Private(Mechanics m, const LoadFacet *f, PetscReal *work)
 {
   const CellGroup    *g = &m->groups[m->cell_group[f->cell]];
   const BoundarySpec *b = &m->spec->boundaries[f->boundary];
   PetscInt            nodes[MOST_FACET_NODES], np = FacetNumPoints(m->dim, g->order);
-  PetscReal trace[3 * MOST_FACET_NODES], r[3 * MOST_FACET_NODES], position[MOST_FACET_POINTS][3], traction[MOST_FACET_POINTS][3], normal[MOST_FACET_POINTS][3],
-      dA[MOST_FACET_POINTS];
+  PetscReal           trace[3 * MOST_FACET_NODES], r[3 * MOST_FACET_NODES], traction[MOST_FACET_POINTS][3], value[MOST_FACET_POINTS];
 
   PetscFunctionBegin;
   const PetscInt num = MechanicsTrace_Private(m, f, nodes, trace);
-  PetscCall(FacetQuadrature(m->dim, m->spec->model, g->order, trace, position[0], dA, normal[0]));
   PetscCall(PetscMemzero(traction, sizeof(traction)));
-  for (PetscInt q = 0; q < np; ++q) {
-    for (PetscInt c = 0; c < m->dim; ++c) {
-      if (b->traction[c]) PetscCall(MechanicsValue(b->traction[c], &b->amplitude, position[q], m->t, &traction[q][c]));
-    }
+  for (PetscInt c = 0; c < m->dim; ++c) {
+    const LoadExpression load = {b->traction[c], &b->amplitude};
+    if (!b->traction[c]) continue;
+    PetscCall(Values_Private(m, g->order, trace, &load, value));
+    for (PetscInt q = 0; q < np; ++q) traction[q][c] = value[q];
   }
   PetscCall(FacetTraction(m->dim, m->spec->model, g->order, trace, traction[0], r));
   PetscCall(PetscArrayzero(work, g->n * m->dim));
@@ -157,11 +176,29 @@ static PetscBool AnyDeadLoad_Private(Mechanics m)
   return PETSC_FALSE;
 }
 
+static PetscErrorCode Pressures_Private(Mechanics m)
+{
+  PetscInt  nodes[MOST_FACET_NODES];
+  PetscReal trace[3 * MOST_FACET_NODES];
+
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < m->num_facets; ++i) {
+    const LoadFacet     *f    = &m->facets[i];
+    const BoundarySpec  *b    = &m->spec->boundaries[f->boundary];
+    const LoadExpression load = {b->pressure, &b->amplitude};
+    if (f->pressure < 0) continue;
+    (void)MechanicsTrace_Private(m, f, nodes, trace);
+    PetscCall(Values_Private(m, m->groups[m->cell_group[f->cell]].order, trace, &load, m->pressures + f->pressure));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode MechanicsDeadLoads_Private(Mechanics m)
 {
   PetscReal *work;
 
   PetscFunctionBegin;
+  PetscCall(Pressures_Private(m));
   if (!AnyDeadLoad_Private(m)) PetscFunctionReturn(PETSC_SUCCESS);
   const HPTables *v = HPSpaceGetTables(m->space);
   if (!m->dead) PetscCall(PetscMalloc1(v->num_nodes * m->dim, &m->dead));
@@ -190,13 +227,14 @@ static PetscErrorCode FacetFollower_Private(Mechanics m, const LoadFacet *f, con
 {
   const CellGroup *g = &m->groups[m->cell_group[f->cell]];
   PetscInt         nodes[MOST_FACET_NODES], np = FacetNumPoints(m->dim, g->order), nd = g->n * m->dim;
-  PetscReal        trace[3 * MOST_FACET_NODES], rt[3 * MOST_FACET_NODES], position[MOST_FACET_POINTS][3], normal[MOST_FACET_POINTS][3], dA[MOST_FACET_POINTS],
-      pressure[MOST_FACET_POINTS], *Kt = NULL;
+  PetscReal        trace[3 * MOST_FACET_NODES], rt[3 * MOST_FACET_NODES], pressure[MOST_FACET_POINTS], *Kt = NULL;
+  const PetscReal  origin[3] = {0, 0, 0};
 
   PetscFunctionBegin;
   const PetscInt num = MechanicsTrace_Private(m, f, nodes, trace), size = num * m->dim;
-  PetscCall(FacetQuadrature(m->dim, m->spec->model, g->order, trace, position[0], dA, normal[0]));
-  for (PetscInt q = 0; q < np; ++q) PetscCall(MechanicsPressure(m, f->boundary, position[q], m->t, &pressure[q]));
+  for (PetscInt q = 0; q < np && f->pressure >= 0; ++q) pressure[q] = m->pressures[f->pressure + q];
+  if (f->pressure < 0) PetscCall(MechanicsPressure(m, f->boundary, origin, m->t, &pressure[0]));
+  for (PetscInt q = 1; q < np && f->pressure < 0; ++q) pressure[q] = pressure[0];
   if (m->spec->kinematics == KINEMATICS_FINITE) {
     PetscCall(HPSpaceGather(m->space, f->cell, u, values));
     for (PetscInt i = 0; i < num; ++i)

@@ -145,6 +145,7 @@ PetscErrorCode MechanicsDestroy(Mechanics *mechanics)
   PetscCall(PetscFree(m->groups));
   PetscCall(PetscFree2(m->cell_group, m->cell_index));
   PetscCall(PetscFree(m->facets));
+  PetscCall(PetscFree(m->pressures));
   PetscCall(PetscFree2(m->control, m->control_pressure));
   PetscCall(PetscFree(m->dead));
   PetscCall(PetscFree(m->free_share));

@@ -144,7 +144,14 @@ typedef struct {
 /* A facet that carries a load. */
 typedef struct {
   PetscInt cell, side, boundary; /* side = 2*direction + (high side) */
+  PetscInt pressure;             /* place of its values among Mechanics.pressures, -1: it has none there */
 } LoadFacet;
+
+/* A load as the scene gives it; both borrowed. */
+typedef struct {
+  Expression       expression;
+  const Amplitude *amplitude;
+} LoadExpression;
 
 #define MOST_FACET_NODES ((MORTISE_MAX_ORDER + 1) * (MORTISE_MAX_ORDER + 1))
 #define MOST_FACET_POINTS ((MORTISE_MAX_ORDER + 2) * (MORTISE_MAX_ORDER + 2))
@@ -157,6 +164,7 @@ struct _p_Mechanics {
   CellGroup           *groups;                  /* owned */
   PetscInt            *cell_group, *cell_index; /* owned [num_cells] group (-1: rigid) and position in it (-1: ghost) */
   LoadFacet           *facets;                  /* owned */
+  PetscReal           *pressures;               /* owned: follower pressures that depend on the place, at t, at the points of the facets that carry them */
   PetscReal (*free_motion)[6];                  /* owned [num_bodies] translation and rotation vector that forces bring about; NULL: none do */
   PetscInt   num_controls, *control;            /* owned: boundaries whose pressure is found */
   PetscReal *control_pressure;                  /* owned [num_controls] */
@@ -201,6 +209,8 @@ static inline PetscReal MechanicsNoiseModulus_Private(const MaterialSpec *materi
 }
 PetscErrorCode MechanicsLoadFacets_Private(Mechanics);
 PetscErrorCode MechanicsDeadLoads_Private(Mechanics);
+/* loadmoment.c: values at the points of a facet, nodes trace[n][dim], that stand for a load which depends on the place. */
+PetscErrorCode MechanicsLoadMoments_Private(PetscInt dim, PetscInt order, const PetscReal trace[], const LoadExpression *, PetscReal t, PetscReal value[]);
 /* Sign that makes the normal of the tangent order (edge tangent; first x second tangent) of a cell's side point outward. */
 PetscInt MechanicsOutwardSign_Private(PetscInt side);
 /* Nodes[MOST_FACET_NODES] of a facet by their place in the cell, and their reference positions X[..][dim]; returns their number. */
