@@ -55,21 +55,23 @@ static PetscErrorCode TableCreate_Private(PetscInt dim, PetscInt order, PetscBoo
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Mean length of the cell's edges in each direction. */
+/* How far apart the cell's sides across each direction are: along the normal of the surface halfway between them, at the middle of the cell. */
 static void Height_Private(PetscInt dim, PetscInt order, const PetscReal X[], PetscReal height[3])
 {
   const PetscInt stride[3] = {order, order * (order + 1), order * (order + 1) * (order + 1)}, edges = 1 << (dim - 1);
+  PetscReal      along[3][3] = {{0, 0, 0}, {0, 0, 0}, {0, 0, 1}}, across[3];
 
   for (PetscInt d = 0; d < dim; ++d) {
-    height[d] = 0;
+    for (PetscInt c = 0; c < 3; ++c) along[d][c] = 0;
     for (PetscInt corner = 0; corner < 1 << dim; ++corner) {
-      if ((corner >> d) & 1) continue;
-      PetscInt  node   = 0;
-      PetscReal square = 0;
+      PetscInt node = 0;
       for (PetscInt a = 0; a < dim; ++a) node += ((corner >> a) & 1) * stride[a];
-      for (PetscInt c = 0; c < dim; ++c) square += PetscSqr(X[(node + stride[d]) * dim + c] - X[node * dim + c]);
-      height[d] += PetscSqrtReal(square) / edges;
+      for (PetscInt c = 0; c < dim; ++c) along[d][c] += ((corner >> d) & 1 ? 1 : -1) * X[node * dim + c] / edges;
     }
+  }
+  for (PetscInt d = 0; d < dim; ++d) {
+    Cross3(along[(d + 1) % 3], along[(d + 2) % 3], across);
+    height[d] = PetscAbsReal(Dot3(along[d], across)) / PetscSqrtReal(Dot3(across, across));
   }
 }
 
