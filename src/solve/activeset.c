@@ -24,7 +24,7 @@ static PetscErrorCode LinearSolve_Private(Solver s, PetscBool again, Vec dx)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Notes the set of this pass. *seen: it has been there before; s->circle then is the largest hash of those since, by which a circle goes. */
+/* Notes the set of this pass. *seen: it has been there before. */
 static PetscErrorCode Note_Private(Solver s, const Passes *p, PetscBool *seen)
 {
   PetscInt k = p->pass - 1;
@@ -33,9 +33,7 @@ static PetscErrorCode Note_Private(Solver s, const Passes *p, PetscBool *seen)
   PetscCall(ArrayGrow(p->pass + 1, sizeof(*s->pass_sets), &s->pass_room, &s->pass_sets));
   PetscCall(InterfaceActiveSetHash(ProblemInterface(s->problem), &s->pass_sets[p->pass]));
   while (k >= p->first && s->pass_sets[k] != s->pass_sets[p->pass]) --k;
-  *seen     = (PetscBool)(k >= p->first);
-  s->circle = 0;
-  for (PetscInt i = k; *seen && i <= p->pass; ++i) s->circle = PetscMax(s->circle, s->pass_sets[i]);
+  *seen = (PetscBool)(k >= p->first);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -61,13 +59,13 @@ static PetscErrorCode Switch_Private(Solver s, Passes *p, PetscBool single, Vec 
 
 PetscErrorCode SolverActiveSetSolve_Private(Solver s, PetscBool again, Vec dx, PetscBool *settled)
 {
-  Passes          p        = {.least = PETSC_MAX_INT};
-  PetscInt        disagree = 1;
-  PetscBool       convex   = PETSC_TRUE, seen;
-  const PetscBool smooth   = (PetscBool)(s->form.pressures_first || !InterfaceSlips(ProblemInterface(s->problem)));
+  Passes          p            = {.least = PETSC_MAX_INT};
+  PetscInt        disagree     = 1;
+  PetscBool       convex       = PETSC_TRUE, seen;
+  const PetscBool frictionless = (PetscBool)(s->form.pressures_first || !InterfaceSlips(ProblemInterface(s->problem)));
 
   PetscFunctionBegin;
-  s->bent = PETSC_FALSE;
+  s->no_set = PETSC_FALSE;
   for (; disagree && !s->report->stopped; ++p.pass) {
     PetscCall(Note_Private(s, &p, &seen));
     if (seen && p.single) {
@@ -80,11 +78,11 @@ PetscErrorCode SolverActiveSetSolve_Private(Solver s, PetscBool again, Vec dx, P
     const PetscBool single = (PetscBool)(seen || p.idle >= s->passes);
     if (s->no_solution || s->passes == 0) break;
     if (single && !convex && s->form.frozen_normals != ALL_PAIRS) {
-      s->bent = PETSC_TRUE;
+      s->no_set = PETSC_TRUE;
       PetscCall(PetscInfo(s->snes, "no active set agrees after %" PetscInt_FMT " passes, and the linearised problem is not convex\n", p.pass));
       break;
     }
-    if (single && (!s->alone || (p.idle >= 2 * s->passes && !(convex && smooth)))) break;
+    if (single && (!s->single_switches || (p.idle >= 2 * s->passes && !(convex && frictionless)))) break;
     PetscCall(Switch_Private(s, &p, single, dx, &disagree));
     if (disagree) PetscCall(StopAsked(PetscObjectComm((PetscObject)s->snes), &s->report->stopped));
   }

@@ -29,17 +29,15 @@ typedef struct {
 
 /* What one solve remembers of its iterations. */
 typedef struct {
-  uint64_t  last_circle;  /* Solver.circle of the linear step before */
-  PetscBool fixed_circle; /* active sets went in a circle with all directions fixed, too */
-  PetscReal first_norm;   /* residual after the first iteration */
-  PetscReal best_norm;    /* least residual … */
-  PetscInt  best_iter;    /* … and its iteration */
-  PetscReal last_norm;    /* residual of the last iterate, 0: prescribed motion was left … */
-  uint64_t  last_set;     /* … and its active set */
-  PetscBool shortened;    /* was the last step too far (line search)? */
-  PetscBool grew, fell;   /* has the residual grown while the set stayed, and fallen since? */
-  PetscReal flow_start;   /* residual that the share of the secant stiffness of flow counts from, 0: none is taken */
-  PetscInt  halvings;     /* steps shortened */
+  PetscReal first_norm; /* residual after the first iteration */
+  PetscReal best_norm;  /* least residual … */
+  PetscInt  best_iter;  /* … and its iteration */
+  PetscReal last_norm;  /* residual of the last iterate, 0: prescribed motion was left … */
+  uint64_t  last_set;   /* … and its active set */
+  PetscBool shortened;  /* was the last step too far (line search)? */
+  PetscBool grew, fell; /* has the residual grown while the set stayed, and fallen since? */
+  PetscReal flow_start; /* residual that the share of the secant stiffness of flow counts from, 0: none is taken */
+  PetscInt  halvings;   /* steps shortened */
 } Course;
 
 struct _p_Solver {
@@ -54,7 +52,7 @@ struct _p_Solver {
   PetscReal     rtol;
   PetscBool     symmetric; /* LDL^T of the symmetric form */
   PetscInt      passes, cuts;
-  PetscBool     alone;             /* nodes may switch one at a time */
+  PetscBool     single_switches;   /* nodes may switch one at a time */
   PetscInt      max_it, max_funcs; /* as SNES has them, and */
   PetscReal     snes_rtol, snes_atol, snes_stol;
   Form          form;                        /* of the residual at hand; transient parts of the last tangent */
@@ -75,8 +73,7 @@ struct _p_Solver {
   PetscBool     test;            /* -snes_test_jacobian was given */
   uint64_t     *pass_sets;       /* owned [pass_room] hashes of the active sets of the passes of one linearisation */
   PetscInt      pass_room;
-  uint64_t      circle;    /* in which the active sets of the last linear step went, 0: none */
-  PetscBool     bent;      /* no set was found that agrees with the last linear step, whose problem is not convex */
+  PetscBool     no_set;    /* no set was found that agrees with the last linear step, whose problem is not convex */
   PetscBool     swap;      /* SolverSwapPredictor */
   PetscBool     keep;      /* SolverKeepForm */
   PetscReal     step;      /* share of the last linear step that was gone */
@@ -95,7 +92,7 @@ PetscErrorCode SNESCreate_ContactNewton(SNES);
 /* Norm and active set of an iterate whose residual is there. Collective. */
 PetscErrorCode SolverLook_Private(Solver, Iterate *);
 /* activeset.c: solve tangent . dx = rhs with the active set iterated until it stays, or none may agree. again: the matrix has been factorised with other rows
-   of this linearisation; settled: the last pass changed no state; s->circle: in which sets went, 0: none; s->no_solution: there is none. Collective. */
+   of this linearisation; settled: the last pass changed no state; s->no_solution: there is none. Collective. */
 PetscErrorCode SolverActiveSetSolve_Private(Solver, PetscBool again, Vec dx, PetscBool *settled);
 /* The same in two stages, of which the first is without friction. */
 PetscErrorCode SolverPressuresFirst_Private(Solver, Vec dx, PetscBool *settled);

@@ -43,12 +43,12 @@ PetscErrorCode SolverTest_Private(Solver s, Vec x)
 static PetscErrorCode Options_Private(Solver s)
 {
   PetscFunctionBegin;
-  s->rtol      = 1e-10;
-  s->max_it    = 25;
-  s->max_funcs = PETSC_MAX_INT;
-  s->passes    = 10;
-  s->alone     = PETSC_TRUE;
-  s->cuts      = 6;
+  s->rtol            = 1e-10;
+  s->max_it          = 25;
+  s->max_funcs       = PETSC_MAX_INT;
+  s->passes          = 10;
+  s->single_switches = PETSC_TRUE;
+  s->cuts            = 6;
 
   s->linear                = LINEAR_AUTO;
   s->factor                = FACTOR_AUTO;
