@@ -2,8 +2,8 @@
 #pragma once
 #include "solve.h"
 
-enum { PATH_SEGMENTATION = 0, PATH_UNFOLDED = 6, PATH_COARSEN, PATH_RECOVERIES }; /* rows of the table of recoveries */
-enum { PATH_INSIDE, PATH_THROUGH, PATH_THROWN, PATH_ROLLING, PATH_REFUSALS };     /* why solutions are refused */
+enum { PATH_UNFREEZE = 0, PATH_UNFOLDED = 6, PATH_COARSEN, PATH_RECOVERIES }; /* rows of the table of recoveries */
+enum { PATH_INSIDE, PATH_THROUGH, PATH_THROWN, PATH_ROLLING, PATH_REFUSALS }; /* why solutions are refused */
 
 /* The part of a run that lives on one mesh; replaced as a whole at each adaptation. */
 typedef struct {
@@ -58,7 +58,8 @@ typedef struct {
   StepWork         work;                      /* of the step at hand */
   PetscReal        all_viscous_work;          /* of all steps accepted */
   PetscReal        flow_error, energy;        /* of all steps accepted, in the energy norm (StateFlowError); strain energy of the accepted state */
-  PetscBool        form_kept;                 /* attempts begin with the accepted form in the plane, too */
+  PetscInt         far;                       /* equilibria that recoveries found which look farther off … */
+  PetscReal        far_t;                     /* … and when first */
   PetscBool        limit_point;               /* loads are near a limit point: no equilibrium farther off is looked for */
   PetscBool        stopped;                   /* the run was asked to stop */
   ProblemStatus    status;                    /* of the last solution */

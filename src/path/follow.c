@@ -86,16 +86,34 @@ PetscErrorCode PathFound(Path *p, const PathLoop *loop, const PetscReal from[], 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The segmentation of a state may be frozen. In space lines that lie on sides stay there: so does the form. In the plane ends go over a side and on: each piece
-   begins without, and what it freezes again is begun again with it (recovery `segmentation`). */
-static void Form_Private(Path *p, const PathLoop *loop)
+/* A solution that was found with a frozen segmentation. In space lines that lie on sides stay there, and so does that form. In the plane ends go over a side
+   and on: where Newton's method easily finds the solution without from there, it is taken. */
+static PetscErrorCode Unfreeze_Private(Path *p, const PathLoop *loop, SolverReport *report)
 {
-  State          *state = &p->level->state;
-  const PetscBool plane = (PetscBool)(HPSpaceGetTables(ProblemSpace(p->level->problem))->dim == 2);
-  const PetscBool anew  = (PetscBool)(plane && state->form.frozen_segmentation && !p->form_kept);
+  Level         *l     = p->level;
+  RecoveryCount *count = &p->recovery[PATH_UNFREEZE];
+  State          found;
+  SolverReport   plain;
 
-  if (anew) state->form.frozen_segmentation = PETSC_FALSE;
-  SolverKeepForm(p->level->solver, (PetscBool)(anew && loop->step && p->recovery[PATH_SEGMENTATION].mode != RECOVERY_OFF));
+  PetscFunctionBegin;
+  if (!report->converged || !loop->metric->load || !l->state.form.frozen_segmentation || count->mode == RECOVERY_OFF) PetscFunctionReturn(PETSC_SUCCESS);
+  if (HPSpaceGetTables(ProblemSpace(l->problem))->dim == 3) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(StateCreate(l->problem, &found));
+  PetscCall(StateCopy(&l->state, &found));
+  l->state.form.frozen_segmentation = PETSC_FALSE;
+  SolverKeepForm(l->solver, PETSC_TRUE);
+  PetscCall(SolverSolve(l->solver, &l->state, &plain));
+  SolverKeepForm(l->solver, PETSC_FALSE);
+  PathCount(p, &plain, PETSC_FALSE);
+  const PetscBool easy = (PetscBool)(plain.converged && plain.iterations <= EASY_ITERATIONS);
+  ++count->tried;
+  count->succeeded += easy;
+  if (easy)
+    *report = plain;
+  else
+    PetscCall(PathRestore(p, &found));
+  PetscCall(StateDestroy(&found));
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode PathAttempt(Path *p, const PathLoop *loop, PetscReal to, SolverReport *report)
@@ -109,10 +127,10 @@ PetscErrorCode PathAttempt(Path *p, const PathLoop *loop, PetscReal to, SolverRe
   PetscCall(PathFrom(p, &from));
   PetscCall(loop->metric->set(p, loop, to));
   PetscCall(ExpressionTrouble(comm, &words)); /* of prescribed motion and dead loads; the others are asked for on the way */
-  Form_Private(p, loop);
   if (!words) {
     PetscCall(SolverSolve(p->level->solver, &p->level->state, report));
     PathCount(p, report, (PetscBool)(loop->metric->load || to >= loop->stop));
+    PetscCall(Unfreeze_Private(p, loop, report));
     PetscCall(ExpressionTrouble(comm, &words));
   }
   if (words) {

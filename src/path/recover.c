@@ -19,22 +19,19 @@ static PetscErrorCode Begin_Private(Path *p, const State *guess)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* ---- the other form of contact forces ---------------------------------------------------------------------------------------------- */
+/* ---- segmentation no longer frozen ------------------------------------------------------------------------------------------------- */
 
 static PetscBool IsFrozen_Private(const Path *p, const State *guess)
 {
   return guess ? guess->form.frozen_segmentation : p->level->accepted.form.frozen_segmentation;
 }
 
-/* In space the attempt that failed began with a frozen segmentation, in the plane without (PathAttempt). */
-static PetscErrorCode Segmentation_Private(Path *p, const PathLoop *load, PetscReal to, const State *guess, SolverReport *report)
+static PetscErrorCode Unfreeze_Private(Path *p, const PathLoop *load, PetscReal to, const State *guess, SolverReport *report)
 {
   PetscFunctionBegin;
   PetscCall(Begin_Private(p, guess));
-  p->level->state.form.frozen_segmentation = (PetscBool)(HPSpaceGetTables(ProblemSpace(p->level->problem))->dim == 2);
-  p->form_kept                             = PETSC_TRUE;
+  p->level->state.form.frozen_segmentation = PETSC_FALSE;
   PetscCall(PathAttempt(p, load, to, report));
-  p->form_kept = PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -155,9 +152,9 @@ static PetscErrorCode Viscous_Private(Path *p, const PathLoop *load, PetscReal t
 /* ---- the table --------------------------------------------------------------------------------------------------------------------- */
 
 const Recovery PathRecoveries[PATH_RECOVERIES] = {
-    [PATH_SEGMENTATION] = {"segmentation",
-                           "the segmentation of contact is frozen: once more from the start of the step, in space without, in the plane with it", 0,
-                           IsFrozen_Private, Segmentation_Private},
+    [PATH_UNFREEZE] = {"unfreeze",
+                       "once more from the start of the step, with the segmentation of contact no longer frozen; in the plane also from what was found", 0,
+                       IsFrozen_Private, Unfreeze_Private},
     {"cut", "on another mesh, the way of the load from the accepted state again, in pieces", 0, IsCarried_Private, Cut_Private},
     {"overlap", "overlap that bodies at rest begin with is taken away in pieces, the deepest place first", 0, IsAtRest_Private, Overlap_Private},
     {"predictor", "once more with the other predictor: with friction, bodies carried to their new places first, or not; plastic material first elastic", 0,
@@ -207,6 +204,7 @@ static PetscErrorCode Try_Private(Path *p, PetscInt row, const PathLoop *load, P
   ++p->recovery[row].succeeded;
   *report = own;
   if (!PathRecoveries[row].far) PetscFunctionReturn(PETSC_SUCCESS);
+  if (p->far++ == 0) p->far_t = p->level->state.t;
   const char *warns = InterfaceSlips(ProblemInterface(p->level->problem)) ? "; with friction it depends on the way there: compare with shorter load steps" : "";
   PetscCall(
       PetscPrintf(ForestComm(p->level->forest),
