@@ -115,6 +115,7 @@ typedef struct {
   PetscReal force_imbalance, moment_imbalance, support_imbalance;
   PetscBool frozen_segmentation; /* of the state (Form) */
   PetscInt  modifiers;           /* interventions of Newton's modifiers on the way to this row */
+  PetscInt  factorisations;      /* of the run (MonitorFooter) */
   PetscReal viscous_work;        /* energy that viscous regularisation dissipated in this step */
   PetscReal plastic_strain, plastic_work;
   PetscReal force_change, work_change, strain_change; /* by the adaptation before this pass, at the same load: see BalanceChange */

@@ -26,6 +26,7 @@ static const struct {
     {"thrown", offsetof(App, path.refusal[PATH_THROWN].num)},
     {"rolled", offsetof(App, path.refusal[PATH_ROLLING].num)},
     {"stabilised", offsetof(App, path.stabilised)},
+    {"far", offsetof(App, path.far)},
     {"begun_anew", offsetof(App, path.begun_anew)},
     {"folded_left", offsetof(App, path.folded_left)},
     {"descent_iterations", offsetof(App, path.descent_iterations)},
@@ -47,6 +48,7 @@ static const struct {
     {"largest_displacement", offsetof(App, path.status.largest)},
     {"largest_error", offsetof(App, largest.relative)},
     {"first_unstable", offsetof(App, unstable_t)},
+    {"first_far", offsetof(App, path.far_t)},
 };
 /* ---- options ------------------------------------------------------------------------------------------------------------------- */
 

@@ -9,6 +9,7 @@ ReportRow AppTotal(const App *app)
   return (ReportRow){.step              = app->load_steps,
                      .step_cuts         = app->path.step_cuts,
                      .newton_iterations = app->path.newton_iterations,
+                     .factorisations    = app->path.factorisations,
                      .t                 = app->level.accepted.t,
                      .seconds           = now - app->start};
 }

@@ -223,10 +223,10 @@ PetscErrorCode MonitorFooter(Monitor m, const char *status, const char *reason, 
     snprintf(spent, sizeof(spent), "%.2f s", (double)total->seconds);
   else
     Duration_Private(total->seconds, spent, sizeof(spent));
-  Say_Private(m, "%s%s%s: %" PetscInt_FMT " load %s to t = %g of %g, %" PetscInt_FMT " Newton %s, %" PetscInt_FMT " step %s, %s\n", status,
-              reason[0] ? ", " : "", reason, total->step, total->step == 1 ? "step" : "steps", (double)total->t, (double)m->scene->load.end,
+  Say_Private(m, "%s%s%s: %" PetscInt_FMT " load %s to t = %g of %g, %" PetscInt_FMT " Newton %s, %" PetscInt_FMT " step %s, %" PetscInt_FMT " %s, %s\n",
+              status, reason[0] ? ", " : "", reason, total->step, total->step == 1 ? "step" : "steps", (double)total->t, (double)m->scene->load.end,
               total->newton_iterations, total->newton_iterations == 1 ? "iteration" : "iterations", total->step_cuts, total->step_cuts == 1 ? "cut" : "cuts",
-              spent);
+              total->factorisations, total->factorisations == 1 ? "factorisation" : "factorisations", spent);
   if (last) {
     if (PetscIsNanReal(last->estimated_error))
       Say_Private(m, "strain energy %.8g, error not estimated\n", (double)last->energy);

@@ -363,7 +363,8 @@ static PetscErrorCode LoadSteps_Private(Context *c)
   if (c->run->load_steps <= least || !Forgets_Private(c->run)) PetscFunctionReturn(PETSC_SUCCESS);
   /* On the way to the end at once there is a solution on each mesh as well: what goes are the ones that later steps begin with. */
   const PetscReal fewer = (PetscReal)(c->run->load_steps - least) / (PetscReal)(c->run->load_steps - 1);
-  PetscCall(EnergyRow_Private(c, "load_steps", "scene", 0, fewer * c->run->later / c->total, "the end does not depend on the path", &row));
+  PetscCall(EnergyRow_Private(c, "load_steps", "scene", 0, fewer * c->run->later / c->total,
+                              "nothing remembers the path; of several equilibria another may be found", &row));
   if (c->run->path->newton_iterations >= LONG_STEP * (c->run->load_steps + c->run->adapt_passes)) row->keeps = PETSC_FALSE;
   for (PetscInt i = 0; i < data->num_contacts; ++i)
     if (c->run->touched[i] > 1) row->keeps = PETSC_FALSE; /* a first touch from far away costs Newton's method more than the steps */

@@ -581,6 +581,7 @@ def test_an_equilibrium_farther_off_depends_on_the_way(run):
     result, without = (run("tests/gauntlet/oring_roll.yml", "-order", 1, "-load_step", 1, "-path_viscous", mode) for mode in ("on", "auto"))
     assert result.returncode == 0 and result.stdout.count(told) == result.summary["recoveries"]["viscous"]["succeeded"] > 0, result
     assert told not in without.stdout, without
+    assert [any("found by descent or viscous regularisation" in text for text in each.summary["warnings"]) for each in (result, without)] == [True, False]
 
 
 def test_work_of_what_is_made_again(run):
