@@ -59,6 +59,8 @@ PetscErrorCode SolverSolve(Solver, State *, SolverReport *);
 void SolverSwapPredictor(Solver, PetscBool swap);
 /* keep: from now on a solve whose segmentation would be frozen on the way is given up instead. Not collective. */
 void SolverKeepForm(Solver, PetscBool keep);
+/* Is the segmentation frozen from the start of each solve (-newton_frozen_segmentation on)? Not collective. */
+PetscBool SolverFreezesAlways(Solver);
 
 /* As SolverSolve, where that finds nothing, by descent: from the state at the start of the step, with the prescribed motion put in by the bodies alone, down
    to a minimum of the augmented Lagrangian (ProblemMerit), each iterate lower than the one before; multipliers follow; then SolverSolve from there, as a rule

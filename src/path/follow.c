@@ -97,7 +97,7 @@ static PetscErrorCode Unfreeze_Private(Path *p, const PathLoop *loop, SolverRepo
 
   PetscFunctionBegin;
   if (!report->converged || !loop->metric->load || !l->state.form.frozen_segmentation || count->mode == RECOVERY_OFF) PetscFunctionReturn(PETSC_SUCCESS);
-  if (HPSpaceGetTables(ProblemSpace(l->problem))->dim == 3) PetscFunctionReturn(PETSC_SUCCESS);
+  if (HPSpaceGetTables(ProblemSpace(l->problem))->dim == 3 || SolverFreezesAlways(l->solver)) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(StateCreate(l->problem, &found));
   PetscCall(StateCopy(&l->state, &found));
   l->state.form.frozen_segmentation = PETSC_FALSE;
