@@ -58,8 +58,7 @@ typedef struct {
   StepWork         work;                      /* of the step at hand */
   PetscReal        all_viscous_work;          /* of all steps accepted */
   PetscReal        flow_error, energy;        /* of all steps accepted, in the energy norm (StateFlowError); strain energy of the accepted state */
-  PetscInt         far;                       /* equilibria that recoveries found which look farther off … */
-  PetscReal        far_t;                     /* … and when first */
+  PetscReal        far_t;                     /* when a recovery that looks farther off first found an equilibrium */
   PetscBool        limit_point;               /* loads are near a limit point: no equilibrium farther off is looked for */
   PetscBool        stopped;                   /* the run was asked to stop */
   ProblemStatus    status;                    /* of the last solution */
@@ -114,6 +113,10 @@ PetscErrorCode PathRefuse(Path *, const PetscReal from[], const SolverReport *, 
 void PathCount(Path *, const SolverReport *, PetscBool equilibrium);
 /* level->state := from, with its time and prescribed motion. Collective. */
 PetscErrorCode PathRestore(Path *, const State *from);
+/* Problem and contact become those at level->state, which is a solution, as a solve that ends there leaves them. Collective. */
+PetscErrorCode PathRefresh(Path *);
+/* Back to a solution with this status after another attempt at the same load and prescribed motion: level->state := found, and PathRefresh. Collective. */
+PetscErrorCode PathReturn(Path *, const State *found, const ProblemStatus *status);
 /* The prescribed motion as it was at time t. Collective. */
 PetscErrorCode PathPrescribe(Problem, PetscReal t);
 /* A load step begins: counters of one step. is_short: it is shorter than asked for, since an earlier one failed. */
@@ -145,6 +148,8 @@ extern const Recovery PathRecoveries[PATH_RECOVERIES];
 
 /* Try the rows of the table in turn until one finds level->state; *report is of that one then, else as it was. Collective. */
 PetscErrorCode PathRecover(Path *, const PathLoop *load, PetscReal to, const State *guess, SolverReport *);
+/* Equilibria of the run that recoveries found which look farther off. Not collective. */
+PetscInt PathNumFar(const Path *);
 /* Options -path_<name> on|off|auto of recoveries and of refusals: an input error when one is unknown or its value not allowed. */
 PetscErrorCode PathOptions(Path *);
 PetscErrorCode PathPrintHelp(MPI_Comm);

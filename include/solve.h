@@ -57,10 +57,8 @@ PetscErrorCode SolverSolve(Solver, State *, SolverReport *);
 /* From now on slide_predictor carries the bodies of pairs with friction where else it would not, and does not where it would; plastic material begins elastic
    and goes on with its secant stiffness. Not collective. */
 void SolverSwapPredictor(Solver, PetscBool swap);
-/* keep: from now on a solve whose segmentation would be frozen on the way is given up instead. Not collective. */
-void SolverKeepForm(Solver, PetscBool keep);
-/* Is the segmentation frozen from the start of each solve (-newton_frozen_segmentation on)? Not collective. */
-PetscBool SolverFreezesAlways(Solver);
+/* From a solution with a frozen segmentation to one without: SolverSolve, given up where the segmentation would be frozen again. Collective. */
+PetscErrorCode SolverUnfreeze(Solver, State *, SolverReport *);
 
 /* As SolverSolve, where that finds nothing, by descent: from the state at the start of the step, with the prescribed motion put in by the bodies alone, down
    to a minimum of the augmented Lagrangian (ProblemMerit), each iterate lower than the one before; multipliers follow; then SolverSolve from there, as a rule

@@ -26,7 +26,6 @@ static const struct {
     {"thrown", offsetof(App, path.refusal[PATH_THROWN].num)},
     {"rolled", offsetof(App, path.refusal[PATH_ROLLING].num)},
     {"stabilised", offsetof(App, path.stabilised)},
-    {"far", offsetof(App, path.far)},
     {"begun_anew", offsetof(App, path.begun_anew)},
     {"folded_left", offsetof(App, path.folded_left)},
     {"descent_iterations", offsetof(App, path.descent_iterations)},

@@ -249,12 +249,13 @@ PetscErrorCode AppWarn(App *app)
                          100 * (double)share, (double)app->rough_t, MechanicsIsPlastic(&app->data->mechanics) ? "elastic energy" : "energy, with it forces,",
                          100 * (double)PetscSqr(share)));
   }
-  if (app->path.far > 0)
+  const PetscInt far = PathNumFar(&app->path);
+  if (far > 0)
     PetscCall(WarningAdd(app->comm,
                          "%" PetscInt_FMT
-                         " %s found by descent or viscous regularisation, the first at t = %.6g, for Newton's method found none from the state "
-                         "before: as where bodies snap; it may be another one than that near by",
-                         app->path.far, app->path.far == 1 ? "equilibrium was" : "equilibria were", (double)app->path.far_t));
+                         " %s found by descent or viscous regularisation, the first at t = %.6g: Newton's method found none from the state before, "
+                         "as where bodies snap, and there may be others nearer by",
+                         far, far == 1 ? "equilibrium was" : "equilibria were", (double)app->path.far_t));
   if (app->path.unstable > 0)
     PetscCall(WarningAdd(app->comm, "%" PetscInt_FMT " %s unstable, the first at t = %.6g: the least disturbance would lead to another equilibrium",
                          app->path.unstable, app->path.unstable == 1 ? "solution is" : "solutions are", (double)app->unstable_t));

@@ -4,15 +4,15 @@
    as a tip does. Lines from a place inside a body leave it an odd number of times, whatever their direction. */
 #include "diagnoseimpl.h"
 
-#define SAMPLES 32 /* facets of one side of a pair on a rank */
+#define SAMPLES 32 /* places of one side of a pair on a rank */
 
-enum { DEPTHS = 5 }; /* places of one facet: on it, and behind it, the farthest first */
+enum { DEPTHS = 4 }; /* places behind one */
 
 const PetscReal LinesAlong_Private[2][3] = {{0.7548776662, 0.5698402910, 0.3247179572}, {-0.4142135624, 0.7320508076, -0.6180339887}};
 
 typedef struct {
-  PetscReal x[3];
-  PetscInt  pair, side, part; /* of the facet whose place it is */
+  PetscReal x[3], behind[3];  /* on a facet, and as far behind it as that is long */
+  PetscInt  pair, side, part; /* of the facet */
 } Place;
 
 PetscBool LineCrosses_Private(PetscInt dim, const Piece *p, const PetscReal x[3], const PetscReal d[3])
@@ -48,7 +48,7 @@ static PetscBool IsOf_Private(const Look *l, const Piece *p, PetscInt k)
   return (PetscBool)((p->groups & PairGroup_Private(&l->s.scene->contacts[k / 2], k % 2)) != 0);
 }
 
-/* Places of this rank, DEPTHS to a piece. */
+/* Places of this rank, in the middle of pieces. */
 static void Places_Private(const Look *l, const PetscInt bare[], PetscInt *num, Place place[])
 {
   const Pieces *s = &l->s;
@@ -62,76 +62,88 @@ static void Places_Private(const Look *l, const PetscInt bare[], PetscInt *num, 
     for (PetscInt i = 0; i < s->num; ++i) {
       const Piece *p = &s->piece[i];
       if (!IsOf_Private(l, p, k) || seen++ % every) continue;
-      for (PetscInt d = 0; d < DEPTHS; ++d) {
-        Place          *to    = &place[(*num)++];
-        const PetscReal depth = d ? 2 * p->size / (PetscReal)(1 << d) : 0;
-        *to                   = (Place){.pair = k / 2, .side = k % 2, .part = p->part};
-        PieceMiddle_Private(s->dim, p->x, to->x);
-        for (PetscInt c = 0; c < 3; ++c) to->x[c] -= depth * p->N[c];
-      }
+      Place *to = &place[(*num)++];
+      *to       = (Place){.pair = k / 2, .side = k % 2, .part = p->part};
+      PieceMiddle_Private(s->dim, p->x, to->x);
+      for (PetscInt c = 0; c < 3; ++c) to->behind[c] = to->x[c] - p->size * p->N[c];
     }
   }
 }
 
-/* How often lines from places leave their own part (crossed[4 place + line]), and parts with the other side of their pair that are not of their own side too
-   (crossed[4 place + 2 + line]); of one surface, other parts than their own. Collective. */
-static PetscErrorCode Count_Private(const Look *l, MPI_Comm comm, PetscInt num, const Place place[], PetscInt crossed[])
+/* Is a part one that a place should not be inside: with the other side of its pair and not with its own too; of one surface, another part? */
+static PetscBool IsOther_Private(const Look *l, PetscInt part, const Place *of)
 {
-  const Pieces  *s       = &l->s;
-  const PetscInt columns = 2 * s->scene->num_contacts;
+  const ContactSpec *pair = &l->s.scene->contacts[of->pair];
+  const int8_t      *has  = l->is + 2 * (l->s.scene->num_contacts * part + of->pair);
+
+  if (!has[1 - of->side]) return PETSC_FALSE;
+  return (PetscBool)(pair->self ? part != of->part : !has[of->side]);
+}
+
+/* inside[num]: do places lie inside their own part, or inside others (IsOther_Private)? Two lines have to say so. Collective. */
+static PetscErrorCode Inside_Private(const Look *l, MPI_Comm comm, PetscBool own, PetscInt num, const Place place[], PetscBool inside[])
+{
+  const Pieces *s = &l->s;
+  PetscInt     *crossed;
 
   PetscFunctionBegin;
-  PetscCall(PetscArrayzero(crossed, 4 * num));
+  PetscCall(PetscCalloc1(2 * num, &crossed));
   for (PetscInt i = 0; i < s->num; ++i) {
-    const Piece  *p  = &s->piece[i];
-    const int8_t *of = l->is + columns * p->part; /* sides that its part has */
+    const Piece *p = &s->piece[i];
     for (PetscInt k = 0; k < num; ++k) {
-      const PetscInt  at    = 2 * place[k].pair;
-      const PetscBool mine  = (PetscBool)(p->part == place[k].part);
-      const PetscBool own   = s->scene->contacts[place[k].pair].self ? mine : (PetscBool)(of[at + place[k].side] != 0);
-      const PetscBool other = (PetscBool)(of[at + 1 - place[k].side] && !own);
-      for (PetscInt d = 0; d < 2 && (mine || other); ++d) {
-        const PetscBool crosses = LineCrosses_Private(s->dim, p, place[k].x, LinesAlong_Private[d]);
-        crossed[4 * k + d] += mine && crosses;
-        crossed[4 * k + 2 + d] += other && crosses;
-      }
+      if (!(own ? p->part == place[k].part : IsOther_Private(l, p->part, &place[k]))) continue;
+      for (PetscInt d = 0; d < 2; ++d) crossed[2 * k + d] += LineCrosses_Private(s->dim, p, place[k].x, LinesAlong_Private[d]);
     }
   }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, crossed, (PetscMPIInt)(4 * num), MPIU_INT, MPI_SUM, comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, crossed, (PetscMPIInt)(2 * num), MPIU_INT, MPI_SUM, comm));
+  for (PetscInt k = 0; k < num; ++k) inside[k] = (PetscBool)(crossed[2 * k] % 2 && crossed[2 * k + 1] % 2);
+  PetscCall(PetscFree(crossed));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Does the place whose counts these are lie inside, as both lines say? */
-static PetscBool IsIn_Private(const PetscInt crossed[2])
+/* within[pair]: of these places, which lie inside another body, one has the farthest place behind it that is in its own body inside there as well. Collective.
+ */
+static PetscErrorCode Behind_Private(const Look *l, MPI_Comm comm, PetscInt num, const Place place[], PetscBool within[])
 {
-  return (PetscBool)(crossed[0] % 2 && crossed[1] % 2);
+  Place     *deep;
+  PetscBool *own, *other;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc3(DEPTHS * num, &deep, DEPTHS * num, &own, DEPTHS * num, &other));
+  for (PetscInt i = 0; i < DEPTHS * num; ++i) { /* the farthest first */
+    const PetscReal share = 1 / (PetscReal)(1 << i % DEPTHS);
+    deep[i]               = place[i / DEPTHS];
+    for (PetscInt c = 0; c < 3; ++c) deep[i].x[c] += share * (deep[i].behind[c] - deep[i].x[c]);
+  }
+  PetscCall(Inside_Private(l, comm, PETSC_TRUE, DEPTHS * num, deep, own));
+  PetscCall(Inside_Private(l, comm, PETSC_FALSE, DEPTHS * num, deep, other));
+  for (PetscInt k = 0; k < num; ++k) {
+    PetscInt i = DEPTHS * k;
+    while (i < DEPTHS * (k + 1) && !own[i]) ++i;
+    if (i < DEPTHS * (k + 1) && other[i]) within[place[k].pair] = PETSC_TRUE;
+  }
+  PetscCall(PetscFree3(deep, own, other));
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* crossed[4 DEPTHS]: of the places of a piece. The one on it, and the farthest behind it that is in its own body, are they inside another? */
-static PetscBool PieceIsIn_Private(const PetscInt crossed[])
-{
-  PetscInt d = 1;
-
-  while (d < DEPTHS && !IsIn_Private(crossed + 4 * d)) ++d;
-  return (PetscBool)(d < DEPTHS && IsIn_Private(crossed + 2) && IsIn_Private(crossed + 4 * d + 2));
-}
-
-/* within[pair]: one of its places lies inside the other body. */
+/* within[pair]: one of its places lies inside the other body. Collective. */
 static PetscErrorCode Find_Private(const Look *l, MPI_Comm comm, const PetscInt bare[], PetscBool within[])
 {
-  PetscInt num_mine, num, *crossed;
-  Place   *mine, *all;
+  PetscInt   num_mine, num, found = 0;
+  Place     *mine, *all;
+  PetscBool *inside;
 
   PetscFunctionBegin;
   for (PetscInt i = 0; i < l->s.scene->num_contacts; ++i) within[i] = PETSC_FALSE;
-  PetscCall(PetscMalloc1(2 * DEPTHS * SAMPLES * l->s.scene->num_contacts, &mine));
+  PetscCall(PetscMalloc1(2 * SAMPLES * l->s.scene->num_contacts, &mine));
   Places_Private(l, bare, &num_mine, mine);
   PetscCall(GatherAll(comm, num_mine, sizeof(Place), mine, &num, &all));
-  PetscCall(PetscMalloc1(4 * num, &crossed));
-  PetscCall(Count_Private(l, comm, num, all, crossed));
-  for (PetscInt k = 0; k < num; k += DEPTHS)
-    if (PieceIsIn_Private(crossed + 4 * k)) within[all[k].pair] = PETSC_TRUE;
-  PetscCall(PetscFree(crossed));
+  PetscCall(PetscMalloc1(num, &inside));
+  PetscCall(Inside_Private(l, comm, PETSC_FALSE, num, all, inside));
+  for (PetscInt k = 0; k < num; ++k)
+    if (inside[k]) all[found++] = all[k];
+  if (found) PetscCall(Behind_Private(l, comm, found, all, within));
+  PetscCall(PetscFree(inside));
   PetscCall(PetscFree(mine));
   PetscCall(PetscFree(all));
   PetscFunctionReturn(PETSC_SUCCESS);

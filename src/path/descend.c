@@ -25,16 +25,6 @@ PetscErrorCode PathDescend(Path *p, const PathLoop *load, PetscReal to, const St
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The problem becomes that at level->state, which is a solution. */
-static PetscErrorCode Refresh_Private(Level *l)
-{
-  PetscFunctionBegin;
-  PetscCall(ProblemSetState(l->problem, &l->state));
-  PetscCall(ProblemSearch(l->problem, l->state.x));
-  PetscCall(ProblemRefresh(l->problem, l->state.x));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* From one unstable equilibrium, level->state, to the next while they are so in fewer directions each time. *stable: the last one is (or neutral). fall: of
    the energy along the first mode. neutral: the first one was no more than that. */
 static PetscErrorCode Leave_Private(Path *p, PetscReal *fall, PetscBool *neutral, PetscBool *stable)
@@ -58,7 +48,7 @@ static PetscErrorCode Leave_Private(Path *p, PetscReal *fall, PetscBool *neutral
     if (!report.converged || refused || *stable || report.unstable >= directions) break;
     directions = report.unstable;
   }
-  if (*stable && report.neutral) PetscCall(Refresh_Private(l));
+  if (*stable && report.neutral) PetscCall(PathRefresh(p));
   PetscCall(PetscFree(from));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -86,9 +76,7 @@ PetscErrorCode PathStabilise(Path *p, PetscBool *changed)
           "along the mode energy falls by %.2g %% of the strain energy; less than the mesh is off, as of a round body free to turn, means nothing\n",
           (double)l->state.t, (double)(100 * fall)));
   } else {
-    PetscCall(StateCopy(&unstable, &l->state));
-    PetscCall(Refresh_Private(l));
-    p->status       = status;
+    PetscCall(PathReturn(p, &unstable, &status));
     p->unstable_now = (PetscBool)!neutral;
   }
   PetscCall(StateDestroy(&unstable));

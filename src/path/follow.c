@@ -20,6 +20,26 @@ PetscErrorCode PathRestore(Path *p, const State *from)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode PathRefresh(Path *p)
+{
+  Level *l = p->level;
+
+  PetscFunctionBegin;
+  PetscCall(ProblemSetState(l->problem, &l->state));
+  PetscCall(ProblemSearch(l->problem, l->state.x));
+  PetscCall(ProblemRefresh(l->problem, l->state.x));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode PathReturn(Path *p, const State *found, const ProblemStatus *status)
+{
+  PetscFunctionBegin;
+  PetscCall(StateCopy(found, &p->level->state));
+  PetscCall(PathRefresh(p));
+  p->status = *status;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 void PathBegin(Path *p, PetscBool is_short)
 {
   p->failures          = is_short;
@@ -97,21 +117,20 @@ static PetscErrorCode Unfreeze_Private(Path *p, const PathLoop *loop, SolverRepo
 
   PetscFunctionBegin;
   if (!report->converged || !loop->metric->load || !l->state.form.frozen_segmentation || count->mode == RECOVERY_OFF) PetscFunctionReturn(PETSC_SUCCESS);
-  if (HPSpaceGetTables(ProblemSpace(l->problem))->dim == 3 || SolverFreezesAlways(l->solver)) PetscFunctionReturn(PETSC_SUCCESS);
+  if (HPSpaceGetTables(ProblemSpace(l->problem))->dim == 3) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(StateCreate(l->problem, &found));
   PetscCall(StateCopy(&l->state, &found));
-  l->state.form.frozen_segmentation = PETSC_FALSE;
-  SolverKeepForm(l->solver, PETSC_TRUE);
-  PetscCall(SolverSolve(l->solver, &l->state, &plain));
-  SolverKeepForm(l->solver, PETSC_FALSE);
+  PetscCall(SolverUnfreeze(l->solver, &l->state, &plain));
   PathCount(p, &plain, PETSC_FALSE);
   const PetscBool easy = (PetscBool)(plain.converged && plain.iterations <= EASY_ITERATIONS);
   ++count->tried;
   count->succeeded += easy;
-  if (easy)
+  if (easy) {
+    p->unstable_now = (PetscBool)(plain.unstable > 0);
+    plain.iterations += report->iterations;
     *report = plain;
-  else
-    PetscCall(PathRestore(p, &found));
+  } else
+    PetscCall(PathReturn(p, &found, &report->status));
   PetscCall(StateDestroy(&found));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

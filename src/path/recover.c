@@ -124,8 +124,10 @@ static PetscErrorCode Slipped_Private(Path *p, const PathLoop *load, PetscReal t
   PetscCall(PathAttempt(p, load, to, &again));
   if (again.converged)
     *report = again;
-  else
-    PetscCall(PathRestore(p, &found));
+  else {
+    PetscCall(PathPrescribe(l->problem, found.t)); /* of which an attempt in vain may have left a part */
+    PetscCall(PathReturn(p, &found, &report->status));
+  }
   PetscCall(StateDestroy(&found));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -189,6 +191,14 @@ static PetscBool Applies_Private(const Path *p, PetscInt row, const State *guess
   return r->applies(p, guess);
 }
 
+PetscInt PathNumFar(const Path *p)
+{
+  PetscInt num = 0;
+
+  for (PetscInt row = 0; row < PATH_RECOVERIES; ++row) num += PathRecoveries[row].far ? p->recovery[row].succeeded : 0;
+  return num;
+}
+
 /* Run a row; *report is replaced where it succeeds. */
 static PetscErrorCode Try_Private(Path *p, PetscInt row, const PathLoop *load, PetscReal to, const State *guess, SolverReport *report)
 {
@@ -204,7 +214,7 @@ static PetscErrorCode Try_Private(Path *p, PetscInt row, const PathLoop *load, P
   ++p->recovery[row].succeeded;
   *report = own;
   if (!PathRecoveries[row].far) PetscFunctionReturn(PETSC_SUCCESS);
-  if (p->far++ == 0) p->far_t = p->level->state.t;
+  if (PathNumFar(p) == 1) p->far_t = p->level->state.t;
   const char *warns = InterfaceSlips(ProblemInterface(p->level->problem)) ? "; with friction it depends on the way there: compare with shorter load steps" : "";
   PetscCall(
       PetscPrintf(ForestComm(p->level->forest),

@@ -33,13 +33,12 @@ static PetscErrorCode Verdict_Private(Solver s, Iterate *it, PetscBool always, P
   if (s->form.frozen_segmentation || (it->number == 0 && !always)) PetscFunctionReturn(PETSC_SUCCESS);
   if (!always) PetscCall(ComesAndGoes_Private(s, it, &yes));
   if (yes) PetscCall(ProblemMayFreezeSegmentation(s->problem, always, acts));
-  if (!*acts) PetscFunctionReturn(PETSC_SUCCESS);
-  if (s->keep) {
+  if (s->never_freeze && (always || *acts)) {
     *acts       = PETSC_FALSE;
     it->trouble = "residuals come and go while the segmentation of contact is not frozen";
     it->reason  = SNES_DIVERGED_LINE_SEARCH;
-    PetscFunctionReturn(PETSC_SUCCESS);
   }
+  if (!*acts) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscInfo(s->snes, "residuals come and go: the segmentation of mortar sides is frozen in forces from here on\n"));
   s->form.frozen_segmentation = PETSC_TRUE;
   s->course.best_norm         = PETSC_MAX_REAL;

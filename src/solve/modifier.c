@@ -19,13 +19,6 @@ const char *SolverModifierName(PetscInt i)
   return Modifiers[i]->name;
 }
 
-PetscBool SolverFreezesAlways(Solver s)
-{
-  for (PetscInt i = 0; i < NUM; ++i)
-    if (Modifiers[i] == &ModifierFrozenSegmentation) return (PetscBool)(s->mode[i] == MODIFIER_ON);
-  return PETSC_FALSE;
-}
-
 const Modifier *SolverModifier_Private(PetscInt i)
 {
   return Modifiers[i];

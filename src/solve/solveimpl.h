@@ -73,13 +73,13 @@ struct _p_Solver {
   PetscBool     test;            /* -snes_test_jacobian was given */
   uint64_t     *pass_sets;       /* owned [pass_room] hashes of the active sets of the passes of one linearisation */
   PetscInt      pass_room;
-  PetscBool     no_set;    /* no set was found that agrees with the last linear step, whose problem is not convex */
-  PetscBool     swap;      /* SolverSwapPredictor */
-  PetscBool     keep;      /* SolverKeepForm */
-  PetscReal     step;      /* share of the last linear step that was gone */
-  Course        course;    /* of this solve */
-  PetscInt      negative;  /* pivots of the last factor of this solve beyond those of constraints, -1: not known */
-  PetscBool     no_memory; /* for the last factor */
+  PetscBool     no_set;       /* no set was found that agrees with the last linear step, whose problem is not convex */
+  PetscBool     swap;         /* SolverSwapPredictor */
+  PetscBool     never_freeze; /* SolverUnfreeze */
+  PetscReal     step;         /* share of the last linear step that was gone */
+  Course        course;       /* of this solve */
+  PetscInt      negative;     /* pivots of the last factor of this solve beyond those of constraints, -1: not known */
+  PetscBool     no_memory;    /* for the last factor */
   SolverReport *report;
 };
 

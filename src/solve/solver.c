@@ -188,11 +188,6 @@ void SolverSwapPredictor(Solver s, PetscBool swap)
   s->swap = swap;
 }
 
-void SolverKeepForm(Solver s, PetscBool keep)
-{
-  s->keep = keep;
-}
-
 PetscErrorCode SolverDestroy(Solver *solver)
 {
   Solver s = *solver;
@@ -225,5 +220,15 @@ PetscErrorCode SolverSolve(Solver s, State *state, SolverReport *report)
   PetscCall(ProblemSetState(s->problem, state)); /* points tell of the pressures found */
   s->report   = NULL;
   s->pressure = NULL;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SolverUnfreeze(Solver s, State *state, SolverReport *report)
+{
+  PetscFunctionBegin;
+  state->form.frozen_segmentation = PETSC_FALSE;
+  s->never_freeze                 = PETSC_TRUE;
+  PetscCall(SolverSolve(s, state, report));
+  s->never_freeze = PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

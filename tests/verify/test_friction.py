@@ -708,6 +708,9 @@ def test_node_over_the_corner_of_a_valley(run):
     assert whole.returncode == half.returncode == 0 and whole.summary["step_cuts"] == 0, (whole, half)
     assert whole.summary["energy"] == pytest.approx(2 * half.summary["energy"], rel=1e-5)
     assert whole.summary["modifiers"]["frozen_segmentation"] == 1, whole
+    as_found = run("cradle.yml", "-path_unfreeze", "off", text=text)  # there is none without: looking for it in vain changes nothing
+    assert whole.summary["recoveries"]["unfreeze"]["succeeded"] == 0 < whole.summary["recoveries"]["unfreeze"]["tried"], whole
+    assert whole.summary["energy"] == as_found.summary["energy"], (whole, as_found)
     for ranks in (2, 3):
         assert run("cradle.yml", text=text, ranks=ranks).summary["energy"] == pytest.approx(whole.summary["energy"], rel=1e-12)
 

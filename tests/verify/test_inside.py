@@ -86,12 +86,13 @@ Physical Curve("as") = {1, 2}; Physical Curve("at") = {3}; Physical Curve("axis"
 """
 
 
-def test_tip_on_tip(run, tmp_path):
+@pytest.mark.parametrize("ranks", [1, 2, 3])
+def test_tip_on_tip(run, tmp_path, ranks):
     """Halves of two wedges on a symmetry plane, whose flanks do not face each other: one goes into the other, where a tip is thinner than its facets are long."""
     (tmp_path / "tips.geo").write_text(TIPS)
     text = json.dumps({"mesh": {"file": "tips.geo"}, "model": "plane_strain", "order": 2, "body": {"a": {"material": "m"}, "b": {"material": "m"}}, "material": {"m": RUBBER},
                        "boundary": {"axis": {"fix": "x"}, "at": {"displacement": {"y": -0.3}}, "bb": {"fix": "y"}}, "contact": {"c": {"nonmortar": "as", "mortar": "bs"}}})
-    told = run("tips.yml", "-load_step_min", 0.1, "-path_viscous", "off", "-output_fields", "false", text=text)
+    told = run("tips.yml", "-load_step_min", 0.1, "-path_viscous", "off", "-output_fields", "false", text=text, ranks=ranks)
     assert told.returncode == 2 and told.summary["refused_solutions"] > 0 and "inside each other" in told.stdout, told
 
 
