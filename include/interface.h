@@ -18,6 +18,7 @@ typedef struct {
   PetscBool    symmetric;       /* the tangent in its symmetric form, where there is one */
   uint64_t     released;        /* pairs that take no part in the tangent, their multipliers go to 0 */
   uint64_t     frozen_normals;  /* pairs with tangents at fixed directions */
+  uint64_t     warm_start;      /* pairs whose active set begins as that of the last linear step (InterfaceKeepActiveSet), not as the residual tells */
   uint64_t     untouched;       /* pairs that have borne nothing yet: those nodes join the active set first that overlap the most */
   PetscBool    pressures_first; /* there nobody sticks or slips as yet */
   MaterialEdge edge;            /* what tangents expect of points on their yield surface */
@@ -261,6 +262,8 @@ PetscErrorCode InterfaceMayFreezeSegmentation(Interface, PetscBool any, PetscBoo
 /* As ProblemFindSlide, for a step with this increment. */
 PetscErrorCode InterfaceFindSlide(Interface, const PetscReal increment[], Vec force, PetscReal *excess);
 /* A number that tells active sets and their states apart, the same on every rank. Collective. */
+/* The states at hand are those that a warm start begins with. */
+void           InterfaceKeepActiveSet(Interface);
 PetscErrorCode InterfaceActiveSetHash(Interface, uint64_t *hash);
 
 /* ---- augmented Lagrangian (merit.c): z_j = max(0, lambda_j - kappa_j g_j), kappa_j = factor c_j --------------------------------- */

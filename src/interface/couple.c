@@ -163,6 +163,7 @@ PetscErrorCode ContactCreate_Private(Interface p, const ContactSpec *spec, Conta
   PetscCall(PetscCalloc6(c->num * n, &c->z, n, &c->gap, n, &c->weight, n, &c->w0, n, &c->extent, n, &c->c));
   PetscCall(PetscCalloc4(n, &c->spring, n, &c->coupled, n, &c->softness, n, &c->before));
   PetscCall(PetscCalloc5(n, &c->active, n, &c->has_multiplier, n, &c->lift, n, &c->change, n, &c->near));
+  PetscCall(PetscCalloc1(n, &c->kept));
   PetscCall(PetscMalloc1(c->side[0].num_facets, &c->result));
   PetscCall(PetscMalloc4(n, &c->zdof, n, &c->zlocal, n, &c->gap0, n, &c->offset));
   PetscCall(PetscCalloc3(n, &c->reach, n, &c->initial, n, &c->initial_gap));
@@ -190,8 +191,8 @@ PetscErrorCode ContactDestroy_Private(Contact *c)
   PetscFunctionBegin;
   PetscCall(TieDestroy_Private(c));
   PetscCall(SlipDestroy_Private(c));
-  PetscCall(FreeAll(14, (void *[]){&c->watch, &c->frozen, &c->shared, &c->mean0, &c->all_real[0], &c->all_real[1], &c->all_active, &c->part[0], &c->part[1],
-                                   &c->link[0], &c->link[1], &c->pattern_offset, &c->pattern, &c->result}));
+  PetscCall(FreeAll(15, (void *[]){&c->kept, &c->watch, &c->frozen, &c->shared, &c->mean0, &c->all_real[0], &c->all_real[1], &c->all_active, &c->part[0],
+                                   &c->part[1], &c->link[0], &c->link[1], &c->pattern_offset, &c->pattern, &c->result}));
   PetscCall(ContactPairDestroy(&c->pair));
   PetscCall(SurfaceDestroy_Private(&c->side[0]));
   PetscCall(SurfaceDestroy_Private(&c->side[1]));
@@ -405,6 +406,7 @@ PetscErrorCode ContactEvaluate_Private(Interface p, Contact *c, Vec x, const Pet
   for (PetscInt e = 0; e < c->side[0].num_facets; ++e) c->result[e] = -1;
   for (PetscInt i = 0; i < c->num_facets; ++i) c->result[c->facets[i].facet] = i;
   Activity_Private(p, c);
+  if (hessian && FormHas(p->form->warm_start, (PetscInt)(c - p->contacts))) PetscCall(ContactWarmStart_Private(p, c));
   PetscCall(ShownMultipliers_Private(p, c));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -194,6 +194,7 @@ typedef struct {
   PetscInt             num_valued, *valued_node; /* their list */
   PetscReal           *pack;                     /* [n][4] work: gap, weight, spring and coupled in one message */
   PetscReal           *all_real[2];              /* values gathered to all, see gather.c */
+  int8_t              *kept;                     /* [n] of this rank's nodes: states that a warm start begins with */
   int8_t              *all_active;
   ContactView          all;
   EndWatch            *watch;      /* [num_facets] in the solve at hand */
@@ -478,6 +479,10 @@ static inline PetscReal ContactOverlap_Private(const Contact *c, PetscInt j)
 PetscErrorCode ContactNodeSums_Private(Interface, Contact *);
 /* offset.c: what counts as no gap, from the reference positions, at t = 0. Collective. */
 PetscErrorCode ContactOffset_Private(Interface, Contact *);
+/* warmstart.c: the states that were kept, of nodes that are covered. Collective. */
+PetscErrorCode ContactWarmStart_Private(Interface, Contact *);
+/* rows.c: states of this rank's nodes, to all that use them. Collective. */
+PetscErrorCode ContactShareStates_Private(Interface, Contact *);
 /* firsttouch.c: the overlap from which on nodes join the active set, of a pair that has borne nothing yet. Collective. */
 PetscErrorCode ContactLeastOverlap_Private(Interface, const Contact *, PetscReal *least);
 /* slidelimit.c: which translations the supports of both sides' bodies leave free. */

@@ -287,7 +287,7 @@ static PetscErrorCode States_Private(Interface p, const InterfaceSystem *a, Cont
     }
     if (untouched && p->form->pressures_first) point[i].friction = 0;
     const int8_t next = c->law->state(&point[i]);
-    if (!next || c->active[j] || ContactOverlap_Private(c, j) >= least) state[i] = next;
+    if (!untouched || !next || c->active[j] || ContactOverlap_Private(c, j) >= least) state[i] = next;
   }
   PetscCall(PetscFree3(z, coupled, slip));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -310,6 +310,17 @@ static PetscErrorCode Rewrite_Private(Interface p, const InterfaceSystem *a, Con
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode ContactShareStates_Private(Interface p, Contact *c)
+{
+  const Surface *s = &c->side[0];
+
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < s->num_own; ++i) c->pack[s->own[i]] = c->active[s->own[i]];
+  PetscCall(LinkSpread_Private(p, &s->values, 1, c->pack));
+  for (PetscInt i = 0; i < s->values.num; ++i) c->active[s->values.nodes[i]] = (int8_t)c->pack[s->values.nodes[i]];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* New states of the nodes of one pair, or of node `only` of it (-1: of all): rows are rewritten, force shifts go to rhs. */
 static PetscErrorCode Apply_Private(Interface p, const InterfaceSystem *a, Contact *c, const ContactPoint point[], const int8_t state[], PetscInt only, Vec rhs)
 {
@@ -328,10 +339,8 @@ static PetscErrorCode Apply_Private(Interface p, const InterfaceSystem *a, Conta
       if (p->dim == 3 && c->slip) c->law->aim(&point[i], c->slip->aim + 3 * j);
       c->active[j] = state[i];
     }
-    c->pack[j] = c->active[j];
   }
-  PetscCall(LinkSpread_Private(p, &s->values, 1, c->pack));
-  for (PetscInt i = 0; i < s->values.num; ++i) c->active[s->values.nodes[i]] = (int8_t)c->pack[s->values.nodes[i]];
+  PetscCall(ContactShareStates_Private(p, c));
   for (PetscInt i = 0; i < s->num_own; ++i)
     if (again[s->own[i]]) PetscCall(InactiveShift_Private(p, a, c, s->own[i], c->active[s->own[i]] ? -1 : 1, rhs));
   PetscCall(Rewrite_Private(p, a, c, old, again));

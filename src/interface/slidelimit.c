@@ -92,6 +92,21 @@ static PetscErrorCode Slide_Private(Interface p, Contact *c, const PetscReal inc
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* A force of node j of side k, factor times e, in the rows of the rigid body that it belongs to. */
+static PetscErrorCode AddRigid_Private(const Contact *c, PetscInt k, PetscInt j, const PetscReal e[3], PetscReal factor, Vec force)
+{
+  const PetscInt dim = c->side[0].dim;
+
+  PetscFunctionBegin;
+  for (PetscInt m = 0; m < c->num_q; ++m) {
+    PetscReal lever[3];
+    if (c->link[k][j] < 0 || c->links + c->link[k][j] != c->q_link[m]) continue;
+    RigidLever(c->q_link[m], c->q_motion[m], c->side[k].X + dim * j, dim, lever);
+    PetscCall(VecSetValue(force, c->q_row[m], factor * Dot3(e, lever), ADD_VALUES));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Forces of sum 1 along e on the nonmortar side, -1 on the mortar side. */
 static PetscErrorCode Forces_Private(Interface p, const Contact *c, const PetscReal e[3], const PetscReal sum[2], Vec force)
 {
@@ -109,6 +124,7 @@ static PetscErrorCode Forces_Private(Interface p, const Contact *c, const PetscR
       for (PetscInt d = 0; d < dim; ++d)
         for (PetscInt a = 0; a < dim; ++a) value[d] += s->frame[dim * (dim * j + d) + a] * e[a] * (k ? -1 : 1) * size / sum[k];
       PetscCall(VecSetValues(force, dim, s->dof + dim * j, value, ADD_VALUES));
+      PetscCall(AddRigid_Private(c, k, j, e, (k ? -1 : 1) * size / sum[k], force));
     }
   }
   PetscCall(VecAssemble(force));

@@ -132,6 +132,7 @@ static PetscErrorCode SNESSolve_ContactNewton(SNES snes)
   snes->reason   = SNES_CONVERGED_ITERATING;
   s->course      = (Course){.best_norm = PETSC_MAX_REAL};
   s->negative    = -1;
+  s->settled     = 0;
   s->no_solution = PETSC_FALSE;
   PetscCall(ProblemSearch(s->problem, it.x));
   PetscCall(SNESComputeFunction(snes, it.x, it.r));

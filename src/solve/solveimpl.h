@@ -73,6 +73,8 @@ struct _p_Solver {
   PetscBool     test;            /* -snes_test_jacobian was given */
   uint64_t     *pass_sets;       /* owned [pass_room] hashes of the active sets of the passes of one linearisation */
   PetscInt      pass_room;
+  uint64_t      settled;      /* pairs whose active set agreed with the last linear step of this solve */
+  uint64_t      settled_set;  /* its hash */
   PetscBool     no_set;       /* no set was found that agrees with the last linear step, whose problem is not convex */
   PetscBool     swap;         /* SolverSwapPredictor */
   PetscBool     never_freeze; /* SolverUnfreeze */
@@ -121,8 +123,8 @@ typedef struct {
   PetscErrorCode (*verdict)(Solver, Iterate *, PetscBool always, PetscBool *acts);
 } Modifier;
 
-extern const Modifier ModifierFrozenSegmentation, ModifierStall, ModifierFrozenNormals, ModifierFirstTouch, ModifierProximalShift, ModifierSlideLimiter,
-    ModifierYieldEdge, ModifierSecantFlow, ModifierSlidePredictor, ModifierLineSearch, ModifierCarriedForce;
+extern const Modifier ModifierFrozenSegmentation, ModifierStall, ModifierFrozenNormals, ModifierWarmStart, ModifierFirstTouch, ModifierProximalShift,
+    ModifierSlideLimiter, ModifierYieldEdge, ModifierSecantFlow, ModifierSlidePredictor, ModifierLineSearch, ModifierCarriedForce;
 /* modifier.c: all that are not off, in the order of the table. */
 const Modifier *SolverModifier_Private(PetscInt);
 PetscErrorCode  ModifiersLinearise_Private(Solver, const Iterate *);

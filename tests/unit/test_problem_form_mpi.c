@@ -69,8 +69,13 @@ static PetscReal Difference(Vec a, Vec b)
 
 static void NothingIsRemembered(void **unused)
 {
-  const Form plain = FormPlain(PETSC_FALSE), others[] = {{.released = 1}, {.frozen_normals = 1}, {.symmetric = PETSC_TRUE},
-                                                         {.proximal = 1}, {.untouched = 1},      {.untouched = 1, .pressures_first = PETSC_TRUE}};
+  const Form plain = FormPlain(PETSC_FALSE), others[] = {{.released = 1},
+                                                         {.frozen_normals = 1},
+                                                         {.symmetric = PETSC_TRUE},
+                                                         {.proximal = 1},
+                                                         {.untouched = 1},
+                                                         {.warm_start = 1},
+                                                         {.untouched = 1, .pressures_first = PETSC_TRUE}};
 
   for (PetscInt order = 1; order <= 2; ++order) {
     Setup s;

@@ -22,6 +22,8 @@ NEEDED = [  # modifier, figure of summary.json, how many times as large it is wi
     ("line_search", "newton_iterations", 2, ("tests/gauntlet/upset.yml", "-load_end", 0.05)),
     ("carried_force", "newton_iterations", 2, ("tests/gauntlet/plate_drawn.yml", "-order", 3, *EXACT)),
     ("frozen_normals", "newton_iterations", 2, ("tests/verify/scenes/pressed_cylinder.yml", "-load_step", 1, "-body_plate_motion_y", 0.13)),
+    ("warm_start", None, None, ("tests/gauntlet/rocker.yml", "-adapt_tolerance", 0, "-material_soil_E", 20, "-mesh_parameter_k", 1.5, "-load_step", 0.25,
+                                "-load_step_min", 0.2, "-load_end", 1.5)),
     ("frozen_normals", None, None, ("tests/gauntlet/coin.yml", "-contact_c_friction", 0.3, "-load_end", 0.4, "-load_step_min", 0.2)),
 ]
 
