@@ -1,6 +1,6 @@
 /* The active set that a linear step begins with: what the residual tells of each node, z - c g > 0, or the set that the last linear step ended with. Both are
-   iterated until they agree with the step (src/solve/activeset.c), but the first knows nothing of what the bodies do together: after a rolling body has turned by
-   theta its surface is by theta^2 R / 2 off, and more than the pressure over c leaves no node in contact, nor anything that holds the body. */
+   iterated until they agree with the step (src/solve/activeset.c), but the first knows nothing of what the bodies do together: after a rolling body has turned
+   by theta its surface is by theta^2 R / 2 off, and more than the pressure over c leaves no node in contact, nor anything that holds the body. */
 #include "interfaceimpl.h"
 
 void InterfaceKeepActiveSet(Interface p)

@@ -16,5 +16,17 @@ static PetscErrorCode Linearise_Private(Solver s, const Iterate *it, const Form 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Where friction alone holds a body the tangent is singular as soon as all nodes slip, which those at their bounds may as well do as stick: the step then
+   carries the body off, and no set agrees with it. With all of the shift it stays. */
+static PetscErrorCode Correct_Private(Solver s, const Iterate *it, Vec dx, PetscBool *acts, PetscBool *again)
+{
+  PetscFunctionBegin;
+  if (s->settled || s->passes == 0 || !(s->form.proximal < 1) || !ProblemHasFreeBody(s->problem)) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscInfo(s->snes, "no active set agrees with the linear step: once more with all of the proximal shift\n"));
+  s->form.proximal = 1;
+  *acts = *again = PETSC_TRUE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 const Modifier ModifierProximalShift = {"proximal_shift", "a small stiffness of bodies that no support holds, less as Newton converges; on: all of it always",
-                                        .linearise = Linearise_Private};
+                                        .linearise = Linearise_Private, .correct = Correct_Private};

@@ -73,7 +73,7 @@ struct _p_Solver {
   PetscBool     test;            /* -snes_test_jacobian was given */
   uint64_t     *pass_sets;       /* owned [pass_room] hashes of the active sets of the passes of one linearisation */
   PetscInt      pass_room;
-  uint64_t      settled;      /* pairs whose active set agreed with the last linear step of this solve */
+  uint64_t      settled;      /* pairs whose active set agreed with the last linear step of this solve, 0: none did */
   uint64_t      settled_set;  /* its hash */
   PetscBool     no_set;       /* no set was found that agrees with the last linear step, whose problem is not convex */
   PetscBool     swap;         /* SolverSwapPredictor */

@@ -32,3 +32,13 @@ def test_not_convex(run):
     s, naive = counts(result), counts(without)
     assert result.returncode == 0 and s["modifiers"]["frozen_normals"] > 0 and s["newton_iterations"] <= 15, result
     assert without.returncode == 2 or naive["newton_iterations"] > 2 * s["newton_iterations"], without
+
+
+def test_friction_alone(run):
+    """A whole ring between plates leaves them in the middle, and what sticks does so with just the friction that it can bear: where all nodes slip in a linear step
+    nothing holds the ring, and no set agrees until it has all of the proximal shift again. By symmetry no force goes across."""
+    result = run("tests/verify/scenes/ring_plates.yml", "-order", 1, *QUIET)
+    s = counts(result)
+    above, below = (s["contact"][pair]["force"] for pair in ("above", "below"))
+    assert result.returncode == 0 and s["step_cuts"] == 0 and s["newton_iterations"] <= 25 and s["factorisations"] <= 80, result
+    assert above[0] == pytest.approx(0, abs=1e-6) and above[1] == pytest.approx(-below[1], rel=1e-9)
