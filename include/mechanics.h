@@ -281,9 +281,11 @@ typedef struct {
 PetscErrorCode MechanicsTerms(Mechanics, const PetscReal u[], BodyTerms terms[]);
 /* Work of follower pressures on u by straight ways beyond that of their forces at rest, (f(u) - f(0)) . u / 2: this rank's part. Not collective. */
 PetscErrorCode MechanicsFollowerTurn(Mechanics, const PetscReal u[], PetscReal *work);
-/* Energy of the error in plastic strain that a step from displacements u0 (at which the history last set was accepted) to u1 leaves: this rank's part. Not
-   collective. */
-PetscErrorCode MechanicsFlowError(Mechanics, const PetscReal u0[], const PetscReal u1[], PetscReal *energy);
+/* flowerror.c. fine[num], a history at displacements u0, becomes what many small steps leave on the way from there to u1: by the increment of displacements
+   `way` (NULL: not known) up to where material begins to flow, and on straight. Not collective. */
+PetscErrorCode MechanicsFollowFlow(Mechanics, const PetscReal u0[], const PetscReal way[], const PetscReal u1[], PetscReal fine[]);
+/* Energy of the difference of the stresses at u between the history last set, left there, and this one: this rank's part. Not collective. */
+PetscErrorCode MechanicsFlowError(Mechanics, const PetscReal u[], const PetscReal fine[], PetscReal *energy);
 /* Plastic strain at np reference points of an owned cell, by polynomials through the integration points; 0 for laws without. Not collective. */
 PetscErrorCode MechanicsPlasticStrain(Mechanics, PetscInt cell, PetscInt np, const PetscReal xi[], const PetscReal u[], PetscReal strain[]);
 

@@ -18,6 +18,11 @@ typedef struct {
   PetscReal *pressure; /* owned [num_pressure] element pressures of this rank that are condensed */
   PetscInt   num_history;
   PetscReal *history; /* owned [num_history] what the laws of this rank's cells remember from the last accepted step (MechanicsHistoryRange) */
+  PetscReal *fine;    /* owned [num_history] the same, had each step been many small ones on the way it went: what the load steps leave (StateFlowError) */
+  PetscInt   num_from;
+  PetscReal *from; /* owned [num_from] local displacements in which the history was left; none where nothing flows */
+  PetscReal *way;  /* owned [num_from] where the first linear step led from there; means nothing without has_way */
+  PetscBool  has_way;
   PetscInt   num_before;
   PetscReal *before; /* owned [num_before] local displacements and this rank's multipliers that slip counts from; none without friction */
   PetscReal  t;      /* pseudo-time of this state */
@@ -32,8 +37,12 @@ PetscErrorCode StateDestroy(State *);
 /* The step that led to s->x is accepted: the history becomes what it left. Stress and forces at s->x stay the same. The problem's prescribed motion must be
    that of the state. Collective. */
 PetscErrorCode StateCommit(Problem, State *);
-/* Energy of the error that plastic flow leaves on the way from an accepted state to another that is not yet. Collective. */
-PetscErrorCode StateFlowError(Problem, State *from, State *to, PetscReal *energy);
+/* The history was left at s->x. The problem's prescribed motion must be that of the state. Collective. */
+PetscErrorCode StateKeepFrom(Problem, State *);
+/* The first linear step dx of a solve that begins at x: which way a step begins, if it begins where the history was left. Collective. */
+PetscErrorCode StateNoteWay(Problem, Vec x, Vec dx, State *);
+/* Energy of the error that the load steps up to a state that has just been committed leave where material flows. Collective. */
+PetscErrorCode StateFlowError(Problem, const State *, PetscReal *energy);
 /* Slip counts from this state from now on (Commit and Admit do so too). The problem's prescribed motion must be that of the state. Collective. */
 PetscErrorCode StateKeepOrigin(Problem, State *);
 /* The history of an accepted state becomes admissible at s->x (MechanicsAdmit): one carried over from another mesh may lie beyond the yield surface. The

@@ -85,9 +85,9 @@ static PetscErrorCode Accept_Private(App *app)
   PetscCall(Direction_Private(app));
   app->path.energy = app->balance.status.energy;
   app->most_energy = PetscMax(app->most_energy, app->path.energy);
-  PetscCall(StateFlowError(l->problem, &l->accepted, &l->state, &flow));
-  app->path.flow_error += PetscSqrtReal(2 * flow);
   PetscCall(StateCommit(l->problem, &l->state));
+  PetscCall(StateFlowError(l->problem, &l->state, &flow));
+  app->path.flow_error = PetscSqrtReal(2 * flow);
   PetscCall(StateCopy(&l->state, &l->accepted));
   ++app->load_steps;
   if (app->path.unstable_now && app->path.unstable++ == 0) app->unstable_t = l->state.t;

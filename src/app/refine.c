@@ -85,6 +85,8 @@ static PetscErrorCode Carry_Private(const Level *old, const ForestMap *map, Adap
     PetscCall(PetscArraycpy(next->accepted.before, next->state.before, next->accepted.num_before));
   }
   PetscCall(PetscArraycpy(next->state.history, next->accepted.history, next->accepted.num_history));
+  PetscCall(PetscArraycpy(next->state.fine, next->accepted.fine, next->accepted.num_history));
+  PetscCall(PetscArraycpy(next->state.from, next->accepted.from, next->accepted.num_from));
   PetscCall(PetscArraycpy(next->state.before, next->accepted.before, next->accepted.num_before));
   PetscCall(PathPrescribe(next->problem, next->state.t));
   const PetscBool following = ProblemIsFollowing(old->problem);

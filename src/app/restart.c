@@ -258,6 +258,7 @@ static PetscErrorCode Level_Private(App *app, Checkpoint c, Forest coarse, Level
   PetscCall(LevelCheck(app->data, level));
   PetscCall(CheckpointState(c, level->problem, &level->state));
   PetscCall(StateKeepOrigin(level->problem, &level->state));
+  PetscCall(StateKeepFrom(level->problem, &level->state));
   PetscCall(StateCopy(&level->state, &level->accepted));
   const ForestTables *tables = ForestGetTables(forest);
   app->snapshot_revision     = tables->revision;

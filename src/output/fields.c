@@ -129,7 +129,7 @@ const OutputField OutputSummaryFields[] = {
     {"recoveries.<recovery>.tried", "", "how often a recovery was tried"},
     {"recoveries.<recovery>.succeeded", "", "and how often it found an equilibrium"},
     {"viscous_work", ENERGY, "energy that viscous regularisation dissipated in all steps"},
-    {"flow_error", "", "estimated error that the load steps leave where material flows, in the energy norm, of the solution's"},
+    {"flow_error", "", "estimated error that the load steps up to here leave where material flows, in the energy norm, of the solution's"},
     {"descent_iterations", "", "iterations of descent on the energy"},
     {"refused_solutions", "", "solutions found that are none: bodies of a pair inside each other that bear nothing (-path_inside)"},
     {"passed_through", "", "and those for which a body went right through the other of such a pair (-path_through)"},

@@ -12,6 +12,11 @@ PetscErrorCode StateCreate(Problem p, State *s)
   PetscCall(MechanicsNumHistory(p->mechanics, &s->num_history));
   PetscCall(PetscMalloc1(s->num_history, &s->history));
   PetscCall(MechanicsInitialHistory(p->mechanics, s->history));
+  PetscCall(PetscMalloc1(s->num_history, &s->fine));
+  PetscCall(PetscArraycpy(s->fine, s->history, s->num_history));
+  s->num_from = MechanicsIsPlastic(&p->scene->mechanics) ? p->num_local : 0;
+  PetscCall(PetscCalloc1(s->num_from, &s->from));
+  PetscCall(PetscMalloc1(s->num_from, &s->way));
   if (InterfaceSlips(p->interface)) {
     s->num_before = p->num_local + p->num_z;
     PetscCall(PetscCalloc1(s->num_before, &s->before));
@@ -29,6 +34,10 @@ PetscErrorCode StateCopy(const State *from, State *to)
   PetscCall(VecCopy(from->x, to->x));
   PetscCall(PetscArraycpy(to->pressure, from->pressure, from->num_pressure));
   PetscCall(PetscArraycpy(to->history, from->history, from->num_history));
+  PetscCall(PetscArraycpy(to->fine, from->fine, from->num_history));
+  PetscCall(PetscArraycpy(to->from, from->from, from->num_from));
+  to->has_way = from->has_way;
+  if (from->has_way) PetscCall(PetscArraycpy(to->way, from->way, from->num_from));
   PetscCall(PetscArraycpy(to->before, from->before, from->num_before));
   PetscCall(PetscArraycpy(to->leaf_order, from->leaf_order, from->num_leaves));
   to->t    = from->t;
@@ -49,26 +58,41 @@ PetscErrorCode StateKeepOrigin(Problem p, State *s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode StateFlowError(Problem p, State *from, State *to, PetscReal *energy)
+PetscErrorCode StateNoteWay(Problem p, Vec x, Vec dx, State *s)
 {
-  const size_t num = (size_t)p->num_local;
-  PetscReal   *u0, *u1;
+  PetscReal *local;
+  PetscBool  same;
 
   PetscFunctionBegin;
+  if (!s->num_from || s->has_way) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscMalloc1(s->num_from, &local));
+  PetscCall(ProblemLocalDisplacement(p, x, local));
+  PetscCall(PetscArraycmp(local, s->from, s->num_from, &same));
+  PetscCall(PetscFree(local));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &same, 1, MPIU_BOOL, MPI_LAND, p->comm));
+  if (!same) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(ProblemIncrement_Private(p, dx, 1.0));
+  PetscCall(PetscArraycpy(s->way, p->increment, s->num_from));
+  s->has_way = PETSC_TRUE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode StateFlowError(Problem p, const State *s, PetscReal *energy)
+{
+  PetscFunctionBegin;
   *energy = 0;
-  if (!MechanicsIsPlastic(&p->scene->mechanics)) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(PetscMalloc2(num, &u0, num, &u1));
-  PetscCall(ProblemSetState(p, from));
-  PetscCall(ProblemSetTime(p, from->t));
-  PetscCall(ProblemJump(p));
-  PetscCall(ProblemLocalDisplacement(p, from->x, u0));
-  PetscCall(ProblemSetState(p, to));
-  PetscCall(ProblemSetTime(p, to->t));
-  PetscCall(ProblemJump(p));
-  PetscCall(ProblemLocalDisplacement(p, to->x, u1));
-  PetscCall(MechanicsFlowError(p->mechanics, u0, u1, energy));
+  if (!s->num_from) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(ProblemSetState(p, s));
+  PetscCall(MechanicsFlowError(p->mechanics, s->from, s->fine, energy));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, energy, 1, MPIU_REAL, MPI_SUM, p->comm));
-  PetscCall(PetscFree2(u0, u1));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode StateKeepFrom(Problem p, State *s)
+{
+  PetscFunctionBegin;
+  s->has_way = PETSC_FALSE;
+  if (s->num_from) PetscCall(ProblemLocalDisplacement(p, s->x, s->from));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -82,6 +106,8 @@ PetscErrorCode StateCommit(Problem p, State *s)
   PetscCall(VecGetArray(p->u_local, &local));
   PetscCall(ProblemLocalDisplacement(p, s->x, local));
   PetscCall(MechanicsCommit(p->mechanics, local, s->history, &bad));
+  if (s->num_from) PetscCall(MechanicsFollowFlow(p->mechanics, s->from, s->has_way ? s->way : NULL, local, s->fine));
+  PetscCall(StateKeepFrom(p, s));
   PetscCall(VecRestoreArray(p->u_local, &local));
   PetscCheck(!bad, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONGSTATE, "a state outside the domain cannot be accepted");
   PetscCall(StateKeepOrigin(p, s));
@@ -98,6 +124,10 @@ PetscErrorCode StateAdmit(Problem p, State *s)
   PetscCall(VecGetArray(p->u_local, &local));
   PetscCall(ProblemLocalDisplacement(p, s->x, local));
   PetscCall(MechanicsAdmit(p->mechanics, local, s->history));
+  PetscCall(MechanicsSetHistory(p->mechanics, s->fine));
+  PetscCall(MechanicsAdmit(p->mechanics, local, s->fine));
+  PetscCall(StateKeepFrom(p, s));
+  PetscCall(ProblemSetState(p, s));
   PetscCall(VecRestoreArray(p->u_local, &local));
   PetscCall(StateKeepOrigin(p, s));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -107,6 +137,6 @@ PetscErrorCode StateDestroy(State *s)
 {
   PetscFunctionBegin;
   PetscCall(VecDestroy(&s->x));
-  PetscCall(FreeAll(4, (void *[]){&s->pressure, &s->history, &s->before, &s->leaf_order}));
+  PetscCall(FreeAll(7, (void *[]){&s->pressure, &s->history, &s->fine, &s->from, &s->way, &s->before, &s->leaf_order}));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

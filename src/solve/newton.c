@@ -114,6 +114,7 @@ static PetscErrorCode Iterate_Private(Solver s, const Iterate *it, Vec dx)
 {
   PetscFunctionBegin;
   PetscCall(Direction_Private(s, it, dx));
+  if (!s->no_solution && it->number == 0 && !s->form.released) PetscCall(StateNoteWay(s->problem, it->x, dx, s->state));
   if (!s->no_solution) PetscCall(Move_Private(s, it, dx));
   if (s->no_solution)
     Finish_Private(s, SNES_DIVERGED_LINEAR_SOLVE, s->no_memory ? "out of memory for a factor of the tangent" : "the tangent is singular");

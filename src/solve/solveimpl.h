@@ -49,6 +49,7 @@ struct _p_Solver {
   PetscReal    *pressure;           /* of the state being solved, borrowed during SolverSolve */
   PetscReal    *end;                /* owned: the same at the end of a linear step (line search) */
   PetscInt      num_pressure;
+  State        *state; /* borrowed, while it is solved for */
   PetscReal     rtol;
   PetscBool     symmetric; /* LDL^T of the symmetric form */
   PetscInt      passes, cuts;

@@ -210,6 +210,7 @@ PetscErrorCode SolverSolve(Solver s, State *state, SolverReport *report)
   PetscCall(PetscMemzero(report, sizeof(*report)));
   report->reason  = "";
   s->report       = report;
+  s->state        = state;
   s->pressure     = state->pressure;
   s->num_pressure = state->num_pressure;
   if (s->balance && !s->end) PetscCall(PetscMalloc1(s->num_pressure, &s->end));

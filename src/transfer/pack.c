@@ -263,7 +263,7 @@ PetscErrorCode TransferPack(Problem problem, const State *state, Pack *pack)
   PetscFunctionBegin;
   scene     = ProblemGetScene(problem);
   pack->num = 0;
-  PetscCall(PetscMalloc1(6 + 2 * scene->num_contacts, &pack->field));
+  PetscCall(PetscMalloc1(7 + 2 * scene->num_contacts, &pack->field));
   ProblemGetPath(problem, &path);
   if (path) {
     PetscCall(PackDisplacement_Private(problem, path, &field)); /* before the displacement: its scalars must act last */
@@ -275,6 +275,8 @@ PetscErrorCode TransferPack(Problem problem, const State *state, Pack *pack)
   PetscCall(Append_Private(pack, field, "%s", "pressure"));
   PetscCall(Blocks_Private(problem, MechanicsHistoryRange, state->num_history, state->history, PETSC_FALSE, &field));
   PetscCall(Append_Private(pack, field, "%s", "history"));
+  PetscCall(Blocks_Private(problem, MechanicsHistoryRange, state->num_history, state->fine, PETSC_FALSE, &field));
+  PetscCall(Append_Private(pack, field, "%s", "fine_history"));
   PetscCall(Unknowns_Private(problem, state->x, PETSC_FALSE, &field));
   PetscCall(Append_Private(pack, field, "%s", "unknown_pressure"));
   PetscCall(Scalars_Private(problem, state->x, PETSC_FALSE, &field));
@@ -327,6 +329,8 @@ PetscErrorCode TransferUnpack(Problem problem, const Pack *pack, State *state, P
   PetscCall(Blocks_Private(problem, MechanicsPressureRange, state->num_pressure, state->pressure, PETSC_TRUE, &field));
   PetscCall(Find_Private(pack, "%s", "history", &field));
   PetscCall(Blocks_Private(problem, MechanicsHistoryRange, state->num_history, state->history, PETSC_TRUE, &field));
+  PetscCall(Find_Private(pack, "%s", "fine_history", &field));
+  PetscCall(Blocks_Private(problem, MechanicsHistoryRange, state->num_history, state->fine, PETSC_TRUE, &field));
   for (PetscInt i = 0; i < scene->num_contacts; ++i) {
     PetscCall(Name_Private(&scene->contacts[i], name));
     PetscCall(Find_Private(pack, "multiplier.%s", name, &field));

@@ -70,6 +70,20 @@ static PetscErrorCode Scalars_Private(Problem old_problem, Vec from, Problem new
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* The history that small steps would have left goes the same way. */
+static PetscErrorCode Fine_Private(const TransferContext *c, OldFields fields, const State *from, State *to)
+{
+  OldCells old;
+
+  PetscFunctionBegin;
+  if (!from->num_from) PetscFunctionReturn(PETSC_SUCCESS);
+  fields.history = from->fine;
+  PetscCall(OldCellsFetch_Private(c, &fields, &old));
+  PetscCall(TransferHistory_Private(c, &old, to->fine));
+  PetscCall(OldCellsDestroy_Private(&old));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode TransferState(Problem old_problem, const State *from, Problem new_problem, const ForestMap *map, State *to)
 {
   TransferContext  c = {.map = map};
@@ -98,6 +112,7 @@ PetscErrorCode TransferState(Problem old_problem, const State *from, Problem new
   PetscCall(PetscMalloc1(c.old_v->num_nodes * c.old_v->dim, &u));
   PetscCall(ProblemLocalDisplacement(old_problem, from->x, u));
   const OldFields fields = {.u = u, .pressure = from->pressure, .history = from->history};
+  PetscCall(Fine_Private(&c, fields, from, to));
   PetscCall(OldCellsFetch_Private(&c, &fields, &old));
   PetscCall(PetscFree(u));
   PetscCall(PetscCalloc1(c.new_v->num_nodes * c.new_v->dim, &u));

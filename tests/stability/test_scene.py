@@ -190,7 +190,7 @@ def test_friction_above_one(run, told):
     assert result.returncode == 0 and result.summary["step_cuts"] == 0 and share < 1 + 1e-6 and factor > 1
 
 
-@way("The load is on in one step while material flows (bar necks): what the step leaves", "force / that of fine steps - 1; told", "flow_error of summary.json: each step against two halves",
+@way("The load is on in one step while material flows (bar necks): what the step leaves", "force / that of fine steps - 1; told", "flow_error of summary.json: against small steps on the same way",
      "the residual of Newton's method is all that is told")
 def test_step_error_of_flow(run, told):
     steps = (0.002, 0.1, 0.05)
