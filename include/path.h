@@ -51,7 +51,8 @@ typedef struct {
   PetscInt         stabilised;                       /* that took the place of unstable ones */
   PetscInt         begun_anew;                       /* runs before this one that went on with other roles of contact pairs */
   PetscInt         folded_left;                      /* cells that were to be split and stayed as they were, for they are folded at a corner */
-  PetscBool        unstable_now;                     /* the last equilibrium found is unstable */
+  PetscBool        unstable_now;                     /* the last equilibrium found is unstable, … */
+  PetscInt         directions;                       /* … in so many directions at least */
   PetscInt         modifiers[SOLVER_MOST_MODIFIERS]; /* interventions of Newton's modifiers */
   PetscInt         modifiers_in_step, iterations_in_step, cuts_in_step;
   PetscInt         failures;                  /* attempts of this load step in vain; a step shorter than asked for begins with one */
@@ -65,6 +66,15 @@ typedef struct {
   RecoveryCount    recovery[PATH_RECOVERIES]; /* by row of the table */
   Refusal          refusal[PATH_REFUSALS];
 } Path;
+
+/* critical.c. The softest mode of the accepted state. */
+typedef struct {
+  PetscBool known, neutral;   /* neutral: it has no stiffness but round-off */
+  PetscReal X[3], lost, from; /* where it moves most; share of its stiffness lost since t = from, 0: none, or not known */
+  PetscInt  body;             /* there */
+} Softest;
+/* level->state becomes the accepted one. Not known along a path, or at t = 0; what was lost not with friction or plastic flow either. Collective. */
+PetscErrorCode PathSoftest(Path *, Softest *);
 
 /* ---- the loop (follow.c) ----------------------------------------------------------------------------------------------------- */
 

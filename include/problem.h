@@ -201,6 +201,16 @@ PetscErrorCode ProblemWork(Problem, Vec r, Vec dx, PetscReal *work);
 PetscErrorCode ProblemStepBegin(Problem, Vec x, Vec dx);
 PetscErrorCode ProblemStepMove(Problem, Vec dx, PetscReal step, PetscBool whole, Vec x);
 PetscErrorCode ProblemStepAccept(Problem, PetscReal step, PetscReal pressure[]);
+/* worst.c. The node at which the residual r is largest: reference position, its body (-1: a node of the pair's nonmortar side), a pair one of whose sides it is
+   on (contact, -1: none). Collective. */
+typedef struct {
+  PetscBool known;
+  PetscReal X[3];
+  PetscInt  body, pair;
+} ProblemPlace;
+PetscErrorCode ProblemFindWorst(Problem, Vec r, ProblemPlace *);
+/* The body of a true local node, -1: no cell of this rank depends on it. Not collective. */
+PetscInt ProblemNodeBody(Problem, PetscInt node);
 /* Largest part of the prescribed motion not yet applied, in the user's unit of length; 0 when the target is reached. */
 PetscErrorCode ProblemPending(Problem, PetscReal *remaining);
 

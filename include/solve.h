@@ -18,12 +18,14 @@ typedef struct {
   PetscInt      single_switches;                  /* of these, passes in which one node switched alone */
   PetscInt      set_cycles;                       /* linearisations whose active sets repeated, and 1 when Newton's own did */
   PetscInt      modifiers[SOLVER_MOST_MODIFIERS]; /* how often each modifier intervened */
-  PetscInt      unstable; /* converged: directions along which the energy falls that the constraints allow, of the last tangent factorised; -1: not known */
-  PetscInt      descents; /* of SolverDescend, each with multipliers of its own */
+  PetscInt      unstable;   /* converged: directions along which the energy falls that the constraints allow, of the last tangent factorised; -1: not known */
+  PetscInt      indefinite; /* factorisations that told of such directions */
+  PetscInt      descents;   /* of SolverDescend, each with multipliers of its own */
   PetscInt      descent_iterations; /* their tangent assemblies */
   PetscReal     fall;               /* of SolverStabilise: of the energy along the lowest eigenvector, in strain energies */
   PetscBool     neutral;            /* of SolverStabilise: the lowest eigenvalue is not below zero but by round-off */
   PetscReal     residual, scale;
+  ProblemPlace  worst; /* of the iterate at which it was given up */
   ProblemStatus status;
 } SolverReport;
 
@@ -64,6 +66,9 @@ PetscErrorCode SolverUnfreeze(Solver, State *, SolverReport *);
    to a minimum of the augmented Lagrangian (ProblemMerit), each iterate lower than the one before; multipliers follow; then SolverSolve from there, as a rule
    after one descent or two. Slow, and nothing cycles. Collective. */
 PetscErrorCode SolverDescend(Solver, State *, SolverReport *);
+/* mode.c. The eigenvalue nearest to 0 of the tangent at an equilibrium, against the largest entries of the rows of displacements, 0 where it is round-off, and
+   its eigenvector as a vector of the problem (NULL: not wanted). Not known where the tangent is singular. Collective. */
+PetscErrorCode SolverLowestMode(Solver, State *, PetscReal *stiffness, Vec mode, PetscBool *known);
 /* From an equilibrium that is unstable (report.unstable) to one that is stable, or less so: along the eigenvector of the lowest eigenvalue, where the energy
    falls more, and by descent. Not converged: there is no such eigenvalue, or no equilibrium was found. HasDescent: is there an energy, and are there the
    factors? Collective. */

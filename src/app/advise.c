@@ -104,6 +104,38 @@ static PetscErrorCode TellOverlap_Private(const App *app, PetscInt pair, PetscBo
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode AppNoteOverlaps(App *app)
+{
+  const Interface contact = ProblemInterface(app->level.problem);
+
+  PetscFunctionBegin;
+  PetscCall(ProblemSetState(app->level.problem, &app->level.accepted));
+  PetscCall(ProblemSearch(app->level.problem, app->level.accepted.x));
+  PetscCall(ProblemRefresh(app->level.problem, app->level.accepted.x));
+  for (PetscInt i = 0; i < app->data->num_contacts; ++i) {
+    const ContactView *view = InterfaceGetContact(contact, i);
+    PetscBool          any  = app->overlaps[app->data->contacts[i].pair];
+    for (PetscInt k = 0; k < view->nonmortar.num_nodes; ++k) any = (PetscBool)(any || (view->nonmortar.owned[k] && view->active[k]));
+    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPIU_BOOL, MPI_LOR, app->comm));
+    app->overlaps[app->data->contacts[i].pair] = any;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* A pair whose sides begin in each other, and touch in no state that was found: they came apart on the way to the first. */
+static PetscErrorCode CameApart_Private(const App *app, const char *pair, const PairFigures *f)
+{
+  char apart[64] = "";
+
+  PetscFunctionBegin;
+  if (f->covered_nodes) PetscCall(PetscSNPrintf(apart, sizeof(apart), " (at the end they are %.3g apart)", (double)f->min_gap));
+  PetscCall(PetscPrintf(app->comm,
+                        "note: the sides of pair %s overlap at the start, but touch in none of the states found%s: they came apart on the way to the first; "
+                        "where they are meant to press on each other, support the bodies so that they cannot leave\n",
+                        pair, apart));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Pairs that were in vain; most likely a group is of other facets than was meant. Of a run that goes on from another one nobody knows. */
 static PetscErrorCode Untouched_Private(const App *app)
 {
@@ -113,7 +145,9 @@ static PetscErrorCode Untouched_Private(const App *app)
     const PairFigures *f    = &app->balance.pair[pair];
     if (app->data->contacts[i].part || app->touched[pair] || f->tied) continue;
     PetscCall(TellOverlap_Private(app, i, PETSC_FALSE));
-    if (f->covered_nodes)
+    if (app->overlaps[pair])
+      PetscCall(CameApart_Private(app, app->data->contacts[i].name, f));
+    else if (f->covered_nodes)
       PetscCall(PetscPrintf(app->comm, "note: the sides of pair %s have not touched; at the end they are %.3g apart\n", app->data->contacts[i].name,
                             (double)f->min_gap));
     else

@@ -28,6 +28,52 @@ PathLoop AppNextStep(const App *app)
       .metric = &PathTime, .s = t, .origin = t, .stop = load->end, .piece = app->dt, .least = load->step_min, .most = load->step_max, .step = PETSC_TRUE};
 }
 
+/* A step was not found, however short. Can the last equilibrium tell why? A mode of it that has no stiffness bears no load; where tangents on the way on had
+   directions in which the energy falls, the load may be critical. */
+static PetscErrorCode TellSoftest_Private(App *app, const SolverReport *report)
+{
+  char    where[256] = "", lost[64] = "";
+  Softest s;
+
+  PetscFunctionBegin;
+  PetscCall(PathSoftest(&app->path, &s));
+  const CoarseMesh *mesh = ForestGetCoarse(app->level.forest);
+  if (s.known)
+    PetscCall(PetscSNPrintf(where, sizeof(where), "moves most at (%.4g, %.4g, %.4g) of body %s", (double)s.X[0], (double)s.X[1], (double)s.X[2],
+                            mesh->body_name[s.body]));
+  if (s.lost > 0) PetscCall(PetscSNPrintf(lost, sizeof(lost), ", and has lost %.2g %% of its stiffness since t = %.4g", 100 * (double)s.lost, (double)s.from));
+  if (s.neutral) {
+    PetscCall(PetscPrintf(app->comm, "note: the last equilibrium is neutral, a motion that %s meets no resistance: a load along it has nothing to balance it\n",
+                          where));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  if (report->indefinite == 0) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscPrintf(app->comm,
+                        "note: just beyond the last equilibrium, which is %s, the tangent has directions in which the energy falls, in %" PetscInt_FMT
+                        " of %" PetscInt_FMT
+                        " factorisations: the load may be critical there (bodies buckle, tilt or snap), with no equilibrium near by%s%s%s\n",
+                        app->path.unstable_now ? "unstable" : "stable", report->indefinite, report->factorisations,
+                        s.known ? "; the softest mode of that equilibrium " : "", where, lost));
+  PetscCall(PetscSNPrintf(app->reason, sizeof(app->reason), "%s; the load may be critical (bodies buckle, tilt or snap)", report->reason));
+  app->failure = app->reason;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Where the last attempt was out of balance when it was given up. */
+static PetscErrorCode TellWorst_Private(const App *app, const ProblemPlace *place)
+{
+  const CoarseMesh *mesh                    = ForestGetCoarse(app->level.forest);
+  char              body[MORTISE_NAME + 16] = "", pair[MORTISE_NAME + 16] = "";
+
+  PetscFunctionBegin;
+  if (!place->known) PetscFunctionReturn(PETSC_SUCCESS);
+  if (place->body >= 0) PetscCall(PetscSNPrintf(body, sizeof(body), " of body %s", mesh->body_name[place->body]));
+  if (place->pair >= 0) PetscCall(PetscSNPrintf(pair, sizeof(pair), ", on a side of pair %s", app->data->contacts[place->pair].name));
+  PetscCall(PetscPrintf(app->comm, "note: when the last attempt was given up, forces were farthest out of balance at (%.4g, %.4g, %.4g)%s%s\n",
+                        (double)place->X[0], (double)place->X[1], (double)place->X[2], body, pair));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode LoadStep_Private(App *app, PetscBool *ok)
 {
   PathLoop     loop = AppNextStep(app);
@@ -49,6 +95,8 @@ static PetscErrorCode LoadStep_Private(App *app, PetscBool *ok)
   if (!app->path.stopped && (!*ok || (app->num_missed > missed && !strcmp(app->adapt_stop, NONE_FINER)))) PetscCall(AppReturnRoles(app));
   if (app->anew || *ok || app->path.stopped) PetscFunctionReturn(PETSC_SUCCESS);
   app->failure = report.reason;
+  PetscCall(TellWorst_Private(app, &report.worst));
+  if (!report.undefined) PetscCall(TellSoftest_Private(app, &report));
   if (app->path.limit_point)
     app->failure = InterfaceSlips(ProblemInterface(app->level.problem))
                        ? "the load has a limit point here: drive by volume, advance or displacement of a boundary"

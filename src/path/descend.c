@@ -53,6 +53,21 @@ static PetscErrorCode Leave_Private(Path *p, PetscReal *fall, PetscBool *neutral
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Without an energy, as with follower pressures, inertia alone tells; of the sign of an eigenvalue that is round-off, as of a body that is free to slide or
+   turn, it tells nothing. */
+static PetscErrorCode Neutral_Private(Path *p)
+{
+  PetscReal stiffness;
+  PetscBool known;
+
+  PetscFunctionBegin;
+  if (p->directions > 1) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SolverLowestMode(p->level->solver, &p->level->state, &stiffness, NULL, &known));
+  if (known && stiffness == 0) p->unstable_now = PETSC_FALSE;
+  PetscCall(PathRefresh(p));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode PathStabilise(Path *p, PetscBool *changed)
 {
   Level        *l      = p->level;
@@ -63,6 +78,7 @@ PetscErrorCode PathStabilise(Path *p, PetscBool *changed)
 
   PetscFunctionBegin;
   *changed = PETSC_FALSE;
+  if (p->unstable_now && !PathCanDescend(p, NULL)) PetscCall(Neutral_Private(p));
   if (!p->unstable_now || !p->data->load.stable || !PathCanDescend(p, NULL)) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(StateCreate(l->problem, &unstable));
   PetscCall(StateCopy(&l->state, &unstable));

@@ -65,6 +65,7 @@ void PathCount(Path *p, const SolverReport *report, PetscBool equilibrium)
   if (!report->converged) return;
   p->status = report->status;
   if (equilibrium && report->unstable >= 0) ++p->judged;
+  if (equilibrium) p->directions = report->unstable;
   if (equilibrium) p->unstable_now = (PetscBool)(report->unstable > 0);
 }
 

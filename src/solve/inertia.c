@@ -95,5 +95,6 @@ PetscErrorCode SolverInertia_Private(Solver s, PC pc)
   s->negative = -1;
   PetscCall(PCGetFailedReason(pc, &failed));
   if (failed == PC_NOERROR) PetscCall((s->symmetric ? Pivots_Private : Sign_Private)(s, pc, &s->negative));
+  if (s->negative > 0) ++s->report->indefinite;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -107,6 +107,7 @@ static PetscErrorCode Judge_Private(Solver s, Iterate *it)
     PetscCall(StopAsked(PetscObjectComm((PetscObject)snes), &s->report->stopped));
     if (s->report->stopped) Finish_Private(s, SNES_DIVERGED_MAX_IT, "the run was asked to stop");
   }
+  if (snes->reason < 0) PetscCall(ProblemFindWorst(s->problem, it->r, &s->report->worst));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
