@@ -202,13 +202,14 @@ PetscErrorCode ProblemStepBegin(Problem, Vec x, Vec dx);
 PetscErrorCode ProblemStepMove(Problem, Vec dx, PetscReal step, PetscBool whole, Vec x);
 PetscErrorCode ProblemStepAccept(Problem, PetscReal step, PetscReal pressure[]);
 /* worst.c. The node at which the residual r is largest: reference position, its body (-1: a node of the pair's nonmortar side), a pair one of whose sides it is
-   on (contact, -1: none). Collective. */
+   on (contact, -1: none). Inverted: the middle of a cell that x inverts, and its body. Collective. */
 typedef struct {
-  PetscBool known;
+  PetscBool known, inverted;
   PetscReal X[3];
   PetscInt  body, pair;
 } ProblemPlace;
 PetscErrorCode ProblemFindWorst(Problem, Vec r, ProblemPlace *);
+PetscErrorCode ProblemFindInvertedAt(Problem, Vec x, ProblemPlace *);
 /* The body of a true local node, -1: no cell of this rank depends on it. Not collective. */
 PetscInt ProblemNodeBody(Problem, PetscInt node);
 /* Largest part of the prescribed motion not yet applied, in the user's unit of length; 0 when the target is reached. */

@@ -58,8 +58,8 @@ static PetscErrorCode Slips_Private(const App *app)
     const FrictionFigures *f = &app->friction[c->pair];
     if (c->part || f->slipping <= f->sticking) continue;
     PetscCall(PetscPrintf(app->comm,
-                          "note: %" PetscInt_FMT " of %" PetscInt_FMT " touching nodes of pair %s slipped in the last step: a body that friction alone holds "
-                          "slides away where it holds no more, and there is no equilibrium then\n",
+                          "note: %" PetscInt_FMT " of %" PetscInt_FMT " touching nodes of pair %s slipped in the last step: if friction there is all that "
+                          "holds a body, it slides away where that holds no more, and there is no equilibrium then\n",
                           f->slipping, f->slipping + f->sticking, c->name));
   }
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -69,6 +69,11 @@ static PetscErrorCode TellWorst_Private(const App *app, const ProblemPlace *plac
   if (!place->known) PetscFunctionReturn(PETSC_SUCCESS);
   if (place->body >= 0) PetscCall(PetscSNPrintf(body, sizeof(body), " of body %s", mesh->body_name[place->body]));
   if (place->pair >= 0) PetscCall(PetscSNPrintf(pair, sizeof(pair), ", on a side of pair %s", app->data->contacts[place->pair].name));
+  if (place->inverted) {
+    PetscCall(PetscPrintf(app->comm, "note: when the last attempt was given up, it had inverted the cell round (%.4g, %.4g, %.4g)%s\n", (double)place->X[0],
+                          (double)place->X[1], (double)place->X[2], body));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
   PetscCall(PetscPrintf(app->comm, "note: when the last attempt was given up, forces were farthest out of balance at (%.4g, %.4g, %.4g)%s%s\n",
                         (double)place->X[0], (double)place->X[1], (double)place->X[2], body, pair));
   PetscFunctionReturn(PETSC_SUCCESS);

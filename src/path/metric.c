@@ -91,7 +91,7 @@ static PetscErrorCode ArcFound_Private(Path *p, const PathLoop *loop, PetscReal 
   PetscCall(ProblemDistance(l->problem, l->accepted.x, l->state.x, &length));
   if (length > TURN * (to - loop->origin)) {
     report->converged = PETSC_FALSE;
-    report->reason    = "the path turns sharply";
+    report->reason    = "the path of equilibria turns too sharply for steps of load.step_min";
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   PetscCall(ProblemGetTime(l->problem, l->state.x, &l->state.t));

@@ -99,3 +99,23 @@ PetscErrorCode ProblemFindWorst(Problem p, Vec r, ProblemPlace *place)
   PetscCall(PetscArraycpy(place->X, w.X, 3));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
+
+PetscErrorCode ProblemFindInvertedAt(Problem p, Vec x, ProblemPlace *place)
+{
+  const ForestTables *t        = ForestGetTables(p->forest);
+  const PetscReal     middle[] = {0.5, 0.5, 0.5};
+  int8_t             *folded;
+  PetscInt            leaf = 0;
+
+  PetscFunctionBegin;
+  *place = (ProblemPlace){.inverted = PETSC_TRUE, .pair = -1};
+  PetscCall(PetscCalloc1(t->num_leaves, &folded));
+  PetscCall(ProblemFindFolded(p, x, folded));
+  while (leaf < t->num_leaves && !folded[leaf]) ++leaf;
+  PetscCall(PetscFree(folded));
+  place->known = (PetscBool)(leaf < t->num_leaves);
+  if (!place->known) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(ForestMapPoint(p->forest, leaf, middle, place->X));
+  place->body = t->leaf_body[leaf];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

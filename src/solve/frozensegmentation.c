@@ -35,7 +35,7 @@ static PetscErrorCode Verdict_Private(Solver s, Iterate *it, PetscBool always, P
   if (yes) PetscCall(ProblemMayFreezeSegmentation(s->problem, always, acts));
   if (s->never_freeze && (always || *acts)) {
     *acts       = PETSC_FALSE;
-    it->trouble = "residuals come and go while the segmentation of contact is not frozen";
+    it->trouble = "the residual of Newton's method goes in circles: contact forces jump where facets of both sides begin or cease to overlap";
     it->reason  = SNES_DIVERGED_LINE_SEARCH;
   }
   if (!*acts) PetscFunctionReturn(PETSC_SUCCESS);

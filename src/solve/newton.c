@@ -119,8 +119,10 @@ static PetscErrorCode Iterate_Private(Solver s, const Iterate *it, Vec dx)
   if (!s->no_solution) PetscCall(Move_Private(s, it, dx));
   if (s->no_solution)
     Finish_Private(s, SNES_DIVERGED_LINEAR_SOLVE, s->no_memory ? "out of memory for a factor of the tangent" : "the tangent is singular");
-  else if (s->report->status.bad)
+  else if (s->report->status.bad) {
+    PetscCall(ProblemFindInvertedAt(s->problem, it->x, &s->report->worst));
     Finish_Private(s, SNES_DIVERGED_FUNCTION_DOMAIN, "every step along the Newton direction inverts a cell");
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
