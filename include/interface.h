@@ -259,8 +259,6 @@ void InterfaceWatchEnds(Interface, PetscBool begin);
 /* Are there facets under pressure whose forces frozen segmentation would change? In the plane those in which the mortar side ends: any of them, if that is set
    or the surface may meet itself; else those over whose end it went and came back (InterfaceWatchEnds). Collective. */
 PetscErrorCode InterfaceMayFreezeSegmentation(Interface, PetscBool any, PetscBool *yes);
-/* As ProblemFindSlide, for a step with this increment. */
-PetscErrorCode InterfaceFindSlide(Interface, const PetscReal increment[], Vec force, PetscReal *excess);
 /* A number that tells active sets and their states apart, the same on every rank. Collective. */
 /* The states at hand are those that a warm start begins with. */
 void           InterfaceKeepActiveSet(Interface);

@@ -188,10 +188,6 @@ PetscErrorCode ProblemSwitchActiveSet(Problem, Vec dx, PetscBool single, Vec rhs
 PetscErrorCode ProblemMayFreezeSegmentation(Problem, PetscBool any, PetscBool *yes);
 /* At the start of a step, where dx is the linear step there: would most points on their yield surface leave it? */
 PetscErrorCode ProblemUnloads(Problem, Vec x, Vec dx, PetscBool *yes);
-/* By how much (unit: length) the solution dx of the linear step slides a body that only contact holds too far along the surface, the pair with the largest
-   ratio to what is allowed; 0: none does. force, of the matrix: forces along that slide, of sum 1 on one side and -1 on the other, whose product with a
-   solution of the matrix is its slide. Not while prescribed motion is still to come. */
-PetscErrorCode ProblemFindSlide(Problem, Vec dx, Vec force, PetscReal *excess);
 
 /* Work of the forces r on the displacements of dx and on motions of rigid bodies that are found, those of prescribed motion not counted. Collective. */
 PetscErrorCode ProblemWork(Problem, Vec r, Vec dx, PetscReal *work);

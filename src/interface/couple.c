@@ -180,7 +180,6 @@ PetscErrorCode ContactCreate_Private(Interface p, const ContactSpec *spec, Conta
   ContactPairSetMet(c->pair, c->side[1].met);
   SearchDistance_Private(c);
   View_Private(c);
-  if (!c->law->ties) PetscCall(ContactFreedom_Private(p, c));
   PetscCall(ContactOffset_Private(p, c));
   PetscCall(SlipCreate_Private(p, c));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -171,8 +171,6 @@ typedef struct {
   PetscInt            *part[2]; /* of the facets of both sides */
   Surface              side[2]; /* 0 nonmortar, 1 mortar */
   ContactView          view;
-  PetscReal            freedom[2][9];            /* of a translation of the bodies of either side, what supports leave free: slidelimit.c */
-  PetscBool            drifts;                   /* they leave some */
   PetscInt            *zdof;                     /* [n] row of the first in the matrix, -1: no multipliers */
   PetscInt            *zlocal;                   /* [n] its position in this rank's part of the vector, -1: not here */
   PetscReal           *z;                        /* [num][n] */
@@ -485,8 +483,6 @@ PetscErrorCode ContactWarmStart_Private(Interface, Contact *);
 PetscErrorCode ContactShareStates_Private(Interface, Contact *);
 /* firsttouch.c: the overlap from which on nodes join the active set, of a pair that has borne nothing yet. Collective. */
 PetscErrorCode ContactLeastOverlap_Private(Interface, const Contact *, PetscReal *least);
-/* slidelimit.c: which translations the supports of both sides' bodies leave free. */
-PetscErrorCode ContactFreedom_Private(Interface, Contact *);
 /* shared.c: nodes of the pair's nonmortar side at which facets of other pairs meet it that are not its own: of tied pairs those of both sides, or of contact
    pairs those of the nonmortar side; whose facets have a compliance. After all surfaces are created. */
 PetscErrorCode ContactCrossings_Private(Interface, const Contact *, PetscBool ties, PetscBool crosses[]);

@@ -18,16 +18,3 @@ PetscBool ProblemHasFreeBody(Problem p)
     if (!MechanicsIsHeld(p->mechanics, b)) return PETSC_TRUE;
   return PETSC_FALSE;
 }
-
-PetscErrorCode ProblemFindSlide(Problem p, Vec dx, Vec force, PetscReal *excess)
-{
-  PetscReal pending;
-
-  PetscFunctionBegin;
-  *excess = 0;
-  PetscCall(ProblemPending(p, &pending));
-  if (pending > 0) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(ProblemIncrement_Private(p, dx, 1.0));
-  PetscCall(InterfaceFindSlide(p->interface, p->increment, force, excess));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}

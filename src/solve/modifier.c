@@ -3,9 +3,9 @@
    order: who corrects a linear step sees what the rows above have made of it. */
 #include "solveimpl.h"
 
-static const Modifier *const Modifiers[] = {&ModifierFrozenSegmentation, &ModifierStall,        &ModifierProximalShift, &ModifierFrozenNormals,
-                                            &ModifierWarmStart,          &ModifierFirstTouch,   &ModifierSlideLimiter,  &ModifierYieldEdge,
-                                            &ModifierSlidePredictor,     &ModifierCarriedForce, &ModifierLineSearch,    &ModifierSecantFlow};
+static const Modifier *const Modifiers[] = {&ModifierFrozenSegmentation, &ModifierStall,      &ModifierProximalShift, &ModifierFrozenNormals,
+                                            &ModifierWarmStart,          &ModifierFirstTouch, &ModifierYieldEdge,     &ModifierSlidePredictor,
+                                            &ModifierCarriedForce,       &ModifierLineSearch, &ModifierSecantFlow};
 #define NUM ((PetscInt)PETSC_STATIC_ARRAY_LENGTH(Modifiers))
 _Static_assert(PETSC_STATIC_ARRAY_LENGTH(Modifiers) <= SOLVER_MOST_MODIFIERS, "SolverReport has no room for all modifiers");
 

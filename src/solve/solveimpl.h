@@ -43,11 +43,11 @@ typedef struct {
 struct _p_Solver {
   Problem       problem; /* borrowed */
   SNES          snes;
-  KSP           ksp;                /* borrowed: of the SNES */
-  Vec           lift, rhs, y, hold; /* of the matrix: effect of the motion to come, right-hand side, solution, forces that hold bodies back */
-  Vec           balance;            /* residual with the element pressures found; NULL: none are condensed */
-  PetscReal    *pressure;           /* of the state being solved, borrowed during SolverSolve */
-  PetscReal    *end;                /* owned: the same at the end of a linear step (line search) */
+  KSP           ksp;          /* borrowed: of the SNES */
+  Vec           lift, rhs, y; /* of the matrix: effect of the motion to come, right-hand side, solution */
+  Vec           balance;      /* residual with the element pressures found; NULL: none are condensed */
+  PetscReal    *pressure;     /* of the state being solved, borrowed during SolverSolve */
+  PetscReal    *end;          /* owned: the same at the end of a linear step (line search) */
   PetscInt      num_pressure;
   State        *state; /* borrowed, while it is solved for */
   PetscReal     rtol;
@@ -125,7 +125,7 @@ typedef struct {
 } Modifier;
 
 extern const Modifier ModifierFrozenSegmentation, ModifierStall, ModifierFrozenNormals, ModifierWarmStart, ModifierFirstTouch, ModifierProximalShift,
-    ModifierSlideLimiter, ModifierYieldEdge, ModifierSecantFlow, ModifierSlidePredictor, ModifierLineSearch, ModifierCarriedForce;
+    ModifierYieldEdge, ModifierSecantFlow, ModifierSlidePredictor, ModifierLineSearch, ModifierCarriedForce;
 /* modifier.c: all that are not off, in the order of the table. */
 const Modifier *SolverModifier_Private(PetscInt);
 PetscErrorCode  ModifiersLinearise_Private(Solver, const Iterate *);

@@ -177,7 +177,7 @@ PetscErrorCode SolverCreate(Problem problem, Solver *solver)
   PetscCall(ProblemGetMatrix(problem, &A));
   PetscCall(SNESSetJacobian(s->snes, A, A, Jacobian_Private, s));
   PetscCall(ProblemCreateRightSide(problem, &s->lift));
-  PetscCall(VecDuplicateAll(s->lift, 3, (Vec *[]){&s->rhs, &s->y, &s->hold}));
+  PetscCall(VecDuplicateAll(s->lift, 2, (Vec *[]){&s->rhs, &s->y}));
   if (StoresPressure_Private(problem)) PetscCall(ProblemCreateVector(problem, &s->balance));
   *solver = s;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -197,7 +197,7 @@ PetscErrorCode SolverDestroy(Solver *solver)
   PetscCall(SNESDestroy(&s->snes));
   PetscCall(SaddleDestroy_Private(&s->saddle));
   PetscCall(KSPDestroy(&s->refine));
-  PetscCall(VecDestroyAll(5, (Vec *[]){&s->lift, &s->rhs, &s->y, &s->hold, &s->balance}));
+  PetscCall(VecDestroyAll(4, (Vec *[]){&s->lift, &s->rhs, &s->y, &s->balance}));
   PetscCall(PetscFree(s->pass_sets));
   PetscCall(PetscFree(s->end));
   PetscCall(PetscFree(*solver));
