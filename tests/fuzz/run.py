@@ -6,7 +6,7 @@ with a trace.
 
 Each case is made of its kind and number alone, so `--kinds msh --seed 17 --cases 1` makes it again. --keep: where the folders of cases that fail go (default: out/fuzz).
 --seconds: no case begins later. Two thirds of the processor time of a case would be the start of the program and of gmsh, so the program is started once and copied before its
-main for each case (server.c), and a mesh that many cases ask for is made once (tests/tools/gmsh); --plain starts both anew.
+main for each case (tests/tools/copies.py), and a mesh that many cases ask for is made once (tests/tools/gmsh); --plain starts both anew.
 Part of the tests: tests/verify/test_fuzz.py.
 """
 import argparse
@@ -18,7 +18,6 @@ import random
 import re
 import resource
 import shutil
-import struct
 import subprocess
 import sys
 import tempfile
@@ -26,6 +25,9 @@ import threading
 import time
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+sys.path.insert(0, str(ROOT / "tests" / "tools"))
+import copies  # noqa: E402
+
 SECONDS, MEGABYTES = 20, 1024
 KINDS = ("scene", "options", "msh", "geo", "checkpoint", "sealed")
 PIECES = ["{", "}", "[", "]", ": ", "\n", "  ", "\t", "&a ", "*a", "!!x ", "---\n", '"', "'", "#", "%", "|", ">", "\\", "-", ",", "nan", "1e999", "~", "\0", "é", "? ", "<<: "]
@@ -90,15 +92,15 @@ class Whole:
     def __init__(self, program, folder, plain=True):
         self.program, self.folder, self.lock = pathlib.Path(program).resolve(), pathlib.Path(folder), threading.Lock()
         self.library, self.own, self.servers = None, threading.local(), []
-        self.sanitized = b"__asan_init" in self.program.read_bytes()  # which maps terabytes
+        self.sanitized = copies.sanitized(self.program)
         if plain: return
         self.library = self.folder / "server.so"
-        subprocess.run(["cc", "-O1", "-shared", "-fPIC", "-o", self.library, ROOT / "tests" / "fuzz" / "server.c", "-ldl"], check=True)
+        copies.build(self.library)
 
     def start(self):
         """What starts the program: of this thread alone."""
         if not hasattr(self.own, "start"):
-            self.own.start = Server(self.program, self.library) if self.library else Plain(self.program)
+            self.own.start = Copies(self.program, self.library) if self.library else Plain(self.program)
             if self.library: self.servers.append(self.own.start)
         return self.own.start
 
@@ -240,44 +242,20 @@ def environment():
             "ASAN_OPTIONS": "detect_leaks=0:allocator_may_return_null=1:verify_asan_link_order=0"}
 
 
-class Server:
-    """The program, loaded once and copied for each start: server.c."""
+class Copies:
+    """The program, loaded once and copied for each start."""
 
     def __init__(self, program, library):
-        pipes = [os.pipe(), os.pipe()]
-        ours, theirs = (pipes[0][1], pipes[1][0]), (pipes[0][0], pipes[1][1])
-
-        def place():
-            for k in 0, 1:
-                os.dup2(theirs[k], 198 + k)
-
-        self.process = subprocess.Popen([program], env=environment() | {"LD_PRELOAD": str(library)}, close_fds=False, preexec_fn=place)
-        self.requests, self.answers = ours
-        for k in theirs:
-            os.close(k)
-
-    def read(self, num):
-        data = b""
-        while len(data) < 8 * num:
-            part = os.read(self.answers, 8 * num - len(data))
-            if not part: raise OSError("tests/fuzz/server.c has ended")
-            data += part
-        return struct.unpack(f"{num}l", data)
+        self.server = copies.Server(program, library, environment())
 
     def start(self, arguments, folder, memory):
-        words = b"".join(os.fsencode(str(word)) + b"\0" for word in (folder, folder / "stdout", folder / "stderr", *arguments))
-        data = struct.pack("3l", len(words), memory, 3 + len(arguments)) + words
-        while data:
-            data = data[os.write(self.requests, data):]
-        return self.read(1)[0]
+        return self.server.start(arguments, folder, folder / "stdout", folder / "stderr", memory)
 
     def wait(self, pid):
-        return self.read(2)
+        return self.server.wait()
 
     def close(self):
-        os.close(self.requests)
-        os.close(self.answers)
-        self.process.wait()
+        self.server.close()
 
 
 class Plain:

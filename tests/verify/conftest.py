@@ -5,6 +5,7 @@
         assert result.returncode == 0 and result.summary["status"] == "converged"
 """
 import csv
+import functools
 import importlib.util
 import json
 import os
@@ -18,6 +19,9 @@ import xml.etree.ElementTree
 import pytest
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+sys.path.insert(0, str(ROOT / "tests" / "tools"))
+import copies  # noqa: E402
+
 PROGRAM = pathlib.Path(os.environ.get("MORTISE", ROOT / "bin" / "mortise"))
 
 
@@ -95,20 +99,54 @@ def leaves(value, kept, name=""):
 
 def execute(command, timeout=600, env=None):
     """Run a command in its own process group; a timeout ends all its ranks and fails the test. A directory of its own for what MPI keeps: starts at the same time
-    take it away from each other. mpiexec need not wait for processes that are at their end too (a second, whenever the status is not 0)."""
+    take it away from each other. mpiexec need not wait for processes that are at their end too (a second, whenever the status is not 0). The program by itself is
+    a copy of one that is loaded: half of the processor time of a small run."""
     with tempfile.TemporaryDirectory(prefix="m") as own:
-        return execute_in(command, timeout, {**os.environ, "TMPDIR": own, "OMPI_MCA_odls_base_sigkill_timeout": "0", **(env or {})})
-
-
-def execute_in(command, timeout, env):
-    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True, cwd=ROOT, env=env)
-    try:
-        stdout, stderr = process.communicate(timeout=timeout)
-    except subprocess.TimeoutExpired:
-        os.killpg(process.pid, 9)
-        stdout, stderr = process.communicate()
-        pytest.fail(f"{' '.join(command)}: no end after {timeout} s\n{stdout[-3000:]}\n{stderr[-3000:]}", pytrace=False)
+        more = {"TMPDIR": own, "OMPI_MCA_odls_base_sigkill_timeout": "0", **(env or {})}
+        loaded = server() if command[0] == str(PROGRAM) and not env else None
+        process, late = (Copy(loaded, command[1:], own, more) if loaded else Start(command, more)), False
+        try:
+            stdout, stderr = process.communicate(timeout)
+        except subprocess.TimeoutExpired:
+            late = True
+            os.killpg(process.pid, 9)
+            stdout, stderr = process.communicate()
+    if late: pytest.fail(f"{' '.join(command)}: no end after {timeout} s\n{stdout[-3000:]}\n{stderr[-3000:]}", pytrace=False)
     return process.returncode, stdout, stderr
+
+
+def Start(command, more):
+    return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True, cwd=ROOT, env={**os.environ, **more})
+
+
+class Copy:
+    """As a process of subprocess.Popen."""
+
+    def __init__(self, loaded, arguments, folder, more):
+        self.loaded, self.files = loaded, [pathlib.Path(folder) / name for name in ("stdout", "stderr")]
+        self.pid = loaded.start(arguments, ROOT, *self.files, environment={**os.environ, **more})
+
+    def communicate(self, timeout=None):
+        if not self.loaded.ended(timeout): raise subprocess.TimeoutExpired("", timeout)
+        self.returncode = os.waitstatus_to_exitcode(self.loaded.wait()[0])
+        return [file.read_text() for file in self.files]
+
+
+@functools.lru_cache(None)
+def loaded_program():
+    """The program, and the environment it was loaded with."""
+    library = os.environ.get("MORTISE_TEST_COPIES")
+    return (copies.Server(PROGRAM, library, dict(os.environ)), dict(os.environ)) if library and not copies.sanitized(PROGRAM) else (None, None)
+
+
+def server():
+    """None: the program is started anew, as where a test has set what its libraries read when they are loaded."""
+    loaded, environment = loaded_program()
+    return loaded if loaded and settings(environment) == settings(os.environ) else None
+
+
+def settings(environment):
+    return {key: value for key, value in environment.items() if key != "PYTEST_CURRENT_TEST"}
 
 
 @pytest.fixture

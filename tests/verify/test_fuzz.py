@@ -29,7 +29,7 @@ def test_damaged_input(whole, tmp_path_factory, kind):
 
 
 def test_copied_starts_say_the_same(whole, tmp_path):
-    """The program copied before its main (server.c) ends and speaks as one that is started anew."""
+    """The program copied before its main (tests/tools/server.c) ends and speaks as one that is started anew."""
     copied, said = fuzz.Whole(PROGRAM, tmp_path, plain=False), []
     for k in range(12):
         for each in whole, copied:

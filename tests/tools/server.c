@@ -1,7 +1,8 @@
 /* Starts of one program without what each of them repeats: loading and linking its hundred libraries. Preloaded, it stops the program before main, and for each
    request on descriptor 198 lets a copy of it (fork) go on into main. The copy is the program with nothing of it left out, in a session of its own.
-   Request: three numbers (bytes that follow, limit of memory in bytes or 0, number of words), then words, each ended by 0: working directory, files for stdout
-   and stderr, arguments. Answers on descriptor 199: the number of the process; at its end its status, and the most memory that it had in kB. */
+   Request: four numbers (bytes that follow, limit of memory in bytes or 0, number of words, number of variables), then words, each ended by 0: working
+   directory, files for stdout and stderr, arguments; then the environment. Answers on descriptor 199: the number of the process; at its end its status, and the
+   most memory that it had in kB. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <fcntl.h>
@@ -39,9 +40,9 @@ static void Redirect(const char *file, int flags, int place)
   close(fd);
 }
 
-static int Child(char *text, long limit, int num, char *name, char **environment)
+static int Child(char *text, long limit, int num, int variables, char *name)
 {
-  char **argv = calloc((size_t)num, sizeof(char *)), *word[3];
+  char **argv = calloc((size_t)num, sizeof(char *)), **environment = calloc((size_t)variables + 1, sizeof(char *)), *word[3];
   int    argc = 1;
 
   argv[0] = name;
@@ -51,6 +52,8 @@ static int Child(char *text, long limit, int num, char *name, char **environment
     else
       argv[argc++] = text;
   }
+  for (int i = 0; i < variables; ++i, text += strlen(text) + 1) environment[i] = text;
+  environ = environment;
   close(REQUESTS);
   close(ANSWERS);
   setsid();
@@ -69,16 +72,15 @@ static int Child(char *text, long limit, int num, char *name, char **environment
 
 static int Serve(int argc, char **argv, char **environment)
 {
-  unsetenv("LD_PRELOAD"); /* not for what it starts */
   for (;;) {
-    long          request[3], answer[2];
+    long          request[4], answer[2];
     int           status;
     struct rusage usage;
     Read(request, sizeof(request));
     char *text = malloc((size_t)request[0]);
     Read(text, (size_t)request[0]);
     const pid_t pid = fork();
-    if (pid == 0) return Child(text, request[1], (int)request[2], argv[0], environment);
+    if (pid == 0) return Child(text, request[1], (int)request[2], (int)request[3], argv[0]);
     answer[0] = pid;
     Answer(answer, 1);
     if (pid < 0) _exit(1);
