@@ -4,6 +4,7 @@ import pytest
 
 SCENE = "inputs/hertz2d.yml"
 FORCE = 0.01875797  # to 1e-6: test_contact_highorder.py
+QUIET = ("-output_fields", "false")
 LINEAR = ("-order", 2, "-contact_disc_on_block_order", 1)  # contact faces
 
 
@@ -20,8 +21,8 @@ def near_edges(state, radius, width):
 
 def test_o81_force_at_equal_unknowns(run):
     """Adaptive refinement is closer to the force than uniform refinement with as many unknowns, or three times more."""
-    adaptive = run(SCENE, *LINEAR, "-adapt_tolerance", 1e-6, "-adapt_max_passes", 5)
-    uniform = [run(SCENE, *LINEAR, "-adapt_tolerance", 0, "-mesh_refine", refine) for refine in (2, 3)]
+    adaptive = run(SCENE, *LINEAR, *QUIET, "-adapt_tolerance", 1e-6, "-adapt_max_passes", 5)
+    uniform = [run(SCENE, *LINEAR, *QUIET, "-adapt_tolerance", 0, "-mesh_refine", refine) for refine in (2, 3)]
     error = abs(force(adaptive) / FORCE - 1)
     assert error < 1e-3
     for result in uniform:
@@ -48,7 +49,7 @@ def test_o81_estimate_concentrates_at_the_contact_edge(run):
 def test_o81_no_step_lost_and_little_changes_after_refinement(run, scene, end):
     """From the second refinement on, solving again after the transfer changes the force by less than 1 % and takes no more iterations than the first solution;
     the load arrives at its end."""
-    result = run(scene, "-order", 2, "-contact_disc_on_block_order", 1, "-mesh_refine", 2, "-adapt_tolerance", 0.015)
+    result = run(scene, "-order", 2, "-contact_disc_on_block_order", 1, "-mesh_refine", 2, "-adapt_tolerance", 0.015, *QUIET)
     assert result.returncode == 0, result
     assert result.summary["t"] == result.history[-1]["t"] == end
     first = [row for row in result.adapt if row["step"] == 1]
@@ -63,7 +64,7 @@ def test_estimate_in_three_dimensions(run):
     prescribed, so that the energies fall towards that of the exact solution; the reference has six times the unknowns of the finest mesh judged."""
     def adapted(order, passes, faces):
         result = run("inputs/blocks3d.yml", "-boundary_top_displacement_z", "-0.06 - 0.06*X*Y", "-order", order, "-adapt_tolerance", 1e-4, "-adapt_max_passes",
-                     passes, "-contact_upper_on_lower_order", faces)
+                     passes, "-contact_upper_on_lower_order", faces, *QUIET)
         assert result.solved, result
         assert len(result.adapt) == passes + 1
         return result.adapt
@@ -87,7 +88,7 @@ def cost(result, estimate):
 def test_hp_takes_fewer_unknowns_with_linear_faces(run):
     """To half a per cent estimated: hp, begun with order 1, against cells of order 2 split only. Its force is right; cells at the faces keep their order."""
     hp = run(SCENE, *LINEAR, "-order", 1, "-adapt_strategy", "hp", "-adapt_tolerance", 0.0055)
-    h = run(SCENE, *LINEAR, "-adapt_tolerance", 0.0055, "-output_fields", "false")
+    h = run(SCENE, *LINEAR, "-adapt_tolerance", 0.0055, *QUIET)
     (n, error), (m, _) = cost(hp, 0.0055), cost(h, 0.0055)
     assert n < 0.6 * m and error < 2e-4, (n, m, error)
     state = hp.states()[-1][1]
@@ -100,7 +101,7 @@ def test_hp_takes_fewer_unknowns_with_linear_faces(run):
 @pytest.mark.parametrize("ranks", [1, 3])
 def test_hp_of_rubber(run, ranks):
     """Mixed cells of mixed orders: the force to the uncertainty of its reference, on any number of ranks."""
-    result = run("inputs/rubber2d.yml", "-adapt_strategy", "hp", "-output_fields", "false", ranks=ranks)
+    result = run("inputs/rubber2d.yml", "-adapt_strategy", "hp", *QUIET, ranks=ranks)
     assert result.returncode == 0 and result.summary["estimated_error"] <= 0.06, result
     assert abs(-result.summary["reaction"]["top"][1] / 0.4024 - 1) < 2.5e-3
     assert result.summary["dofs"] < 2211  # what order 2 takes, split only
@@ -109,7 +110,7 @@ def test_hp_of_rubber(run, ranks):
 def test_incompressible_cells_of_order_1(run):
     """Their pressures alternate from cell to cell on adapted meshes, with no error in forces: the estimate does not tell them as one, and the tolerance is met."""
     result, *others = (run("inputs/rubber2d.yml", "-order", 1, "-material_rubber_nu", 0.5, "-boundary_top_displacement_y", -0.1, "-adapt_tolerance", 0.12,
-                           "-output_fields", "false", ranks=ranks) for ranks in (1, 3))
+                           *QUIET, ranks=ranks) for ranks in (1, 3))
     assert result.returncode == 0, result
     estimates = [row["estimated_error"] for row in result.adapt]
     assert all(after < before for before, after in zip(estimates, estimates[1:])), estimates
@@ -132,7 +133,7 @@ def test_hp_with_contact_faces_of_full_order(run):
     """Orders rise at the faces as well, cells at the edges of the zone of contact are split: a third of the unknowns for a third of a per cent."""
     full = ("-contact_disc_on_block_order", "full", "-adapt_tolerance", 0.0035)
     hp = run(SCENE, *LINEAR, *full, "-adapt_strategy", "hp")
-    h = run(SCENE, *LINEAR, *full, "-output_fields", "false")
+    h = run(SCENE, *LINEAR, *full, *QUIET)
     (n, error), (m, _) = cost(hp, 0.0035), cost(h, 0.0035)
     assert n < 0.4 * m and error < 2e-4, (n, m, error)
     state = hp.states()[-1][1]
@@ -152,7 +153,8 @@ def test_contact_between_nodes(run, dim):
     """The estimate sees an overlap that no node does, in bodies that are free of stress: cells there are refined until contact bears, the same on any number of
     ranks."""
     scene, axis, tolerance, exact = SHALLOW[dim]
-    results = [run(scene, "-order", 2, f"-boundary_top_displacement_{axis}", "-0.0005*t", "-adapt_tolerance", tolerance, ranks=ranks) for ranks in (1, 2, 3)]
+    results = [run(scene, "-order", 2, f"-boundary_top_displacement_{axis}", "-0.0005*t", "-adapt_tolerance", tolerance, *QUIET,
+                   ranks=ranks) for ranks in (1, 2, 3)]
     for result in results:
         assert result.solved and result.summary["estimated_error"] < tolerance and not result.summary["warnings"], result
         assert result.adapt[0]["active_nodes"] == 0 and result.adapt[0]["estimated_error"] == 1
@@ -171,7 +173,7 @@ def test_contact_between_nodes_is_told(run, ranks):
 @pytest.mark.parametrize("ranks", [1, 2, 3])
 def test_contact_that_a_finer_mesh_does_not_see(run, ranks):
     """A corner that three nodes met on one mesh and none do on the next: what is left of their pressures there, 1e-45, is none, and the overlap is seen. (The run ended "converged", free of stress.)"""
-    result = run("tests/verify/scenes/cube_corner.yml", "-contact_c_roles", "given", "-output_fields", "false", ranks=ranks)
+    result = run("tests/verify/scenes/cube_corner.yml", "-contact_c_roles", "given", *QUIET, ranks=ranks)
     told = [(row["active_nodes"], row["estimated_error"]) for row in result.adapt]
     assert told[2][0] > 0 and told[3] == (0, 1) and len(told) == 5, told
     assert result.returncode == 2 and result.summary["status"] == "inaccurate" and any("overlap by" in words for words in result.summary["warnings"]), result

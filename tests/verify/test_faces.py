@@ -97,7 +97,7 @@ def test_fir_tree_on_ranks(run, scene):
 @pytest.mark.parametrize("sides", [("left_teeth", "right_teeth"), ("right_teeth", "left_teeth")], ids=["given", "swapped"])
 def test_a_face_hides_those_of_other_parts(run, sides, gap):
     """Teeth behind teeth of a comb: a search no further than a facet finds the same."""
-    options = ("-order", 1, "-mesh_parameter_gap", gap, "-contact_teeth_nonmortar", sides[0], "-contact_teeth_mortar", sides[1])
+    options = ("-order", 1, "-load_step", 0.5, "-mesh_parameter_gap", gap, "-contact_teeth_nonmortar", sides[0], "-contact_teeth_mortar", sides[1])
     far, near = run("tests/verify/scenes/comb.yml", *options), run("tests/verify/scenes/comb.yml", *options, "-contact_teeth_search", 1)
     print(far.summary["energy"], near.summary["energy"])
     assert far.returncode == near.returncode == 0 and far.summary["energy"] == pytest.approx(near.summary["energy"], rel=1e-9)

@@ -696,6 +696,7 @@ body: {disc: {material: rubber}, valley: {material: rigid}, plate: {material: ri
 material: {rubber: {law: neo_hookean, E: 1, nu: 0.3}, rigid: {law: rigid}}
 contact: {a: {nonmortar: rim, mortar: faces, friction: 0.3}, b: {nonmortar: rim, mortar: under, friction: 0.3}}
 load: {step: 0.1}
+output: {fields: false}
 """
 
 
