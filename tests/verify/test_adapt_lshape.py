@@ -129,7 +129,7 @@ def test_o80_hp_is_exponential(run):
 def test_o80_hp_goes_on_to_1e_6(run):
     """Exponential down to 1e-6, by two thirds of the first slope where orders have come to their limit. The tolerance is below what the smallest cells at
     the corner leave: that is said, and no other cell is refined in vain."""
-    result = run(SCENE, "-adapt_tolerance", 1e-6, "-order", 1, "-adapt_strategy", "hp", "-adapt_max_passes", 60, timeout=120)
+    result = run(SCENE, "-adapt_tolerance", 1e-6, "-order", 1, "-adapt_strategy", "hp", "-adapt_max_passes", 60)
     true, estimate, n = errors(result)
     hp = true / np.sqrt(2 * ENERGY)
     assert result.summary["status"] == "inaccurate" and result.summary["adapt_stop"] == "nothing left to refine"
