@@ -4,6 +4,7 @@
         result = run("inputs/patch.yml", "-order", 2, ranks=2)
         assert result.returncode == 0 and result.summary["status"] == "converged"
 """
+import atexit
 import csv
 import functools
 import importlib.util
@@ -136,7 +137,10 @@ class Copy:
 def loaded_program():
     """The program, and the environment it was loaded with."""
     library = os.environ.get("MORTISE_TEST_COPIES")
-    return (copies.Server(PROGRAM, library, dict(os.environ)), dict(os.environ)) if library and not copies.sanitized(PROGRAM) else (None, None)
+    if not library or copies.sanitized(PROGRAM): return None, None
+    loaded = copies.Server(PROGRAM, library, dict(os.environ))
+    atexit.register(loaded.close)
+    return loaded, loaded.environment
 
 
 def server():
