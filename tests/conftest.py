@@ -23,11 +23,23 @@ TOOLS = pathlib.Path(__file__).resolve().parent / "tools"
 sys.path.insert(0, str(TOOLS))
 import copies  # noqa: E402
 
+
+def meshes_folder(gmsh):
+    """Beside what was built, for the next time, too; of this gmsh alone."""
+    build = pathlib.Path(os.environ.get("MORTISE_BUILD", TOOLS.parent.parent / "build"))
+    if build.is_dir() and os.access(build, os.W_OK):
+        status = os.stat(gmsh)
+        folder = build.resolve() / "meshes" / f"{status.st_mtime_ns:x}.{status.st_size:x}"
+        folder.mkdir(parents=True, exist_ok=True)
+    else:
+        folder = tempfile.mkdtemp(prefix="meshes")
+        atexit.register(shutil.rmtree, folder, True)
+    return str(folder)
+
+
 # tests/tools/gmsh stands for gmsh; workers of pytest-xdist, which start with this environment, share its meshes.
 if "MORTISE_TEST_MESHES" not in os.environ and shutil.which("gmsh"):
-    meshes = tempfile.mkdtemp(prefix="meshes")
-    atexit.register(shutil.rmtree, meshes, True)
-    os.environ.update(MORTISE_TEST_GMSH=shutil.which("gmsh"), MORTISE_TEST_MESHES=meshes,
+    os.environ.update(MORTISE_TEST_GMSH=shutil.which("gmsh"), MORTISE_TEST_MESHES=meshes_folder(shutil.which("gmsh")),
                       PATH=f"{TOOLS}:{os.environ['PATH']}")
 
 if "MORTISE_TEST_COPIES" not in os.environ:
