@@ -135,22 +135,24 @@ class Copy:
 
 @functools.lru_cache(None)
 def loaded_program():
-    """The program, and the environment it was loaded with."""
+    """The program, and what it inherited."""
     library = os.environ.get("MORTISE_TEST_COPIES")
     if not library or copies.sanitized(PROGRAM): return None, None
     loaded = copies.Server(PROGRAM, library, dict(os.environ))
     atexit.register(loaded.close)
-    return loaded, loaded.environment
+    return loaded, inherited()
+
+
+def inherited():
+    """What a process started now has from this one: environment (that pytest keeps its own place in), limits, umask, signals."""
+    status = re.findall(r"^(?:Umask|SigBlk|SigIgn):.*", pathlib.Path("/proc/self/status").read_text(), re.M)
+    return {key: value for key, value in os.environ.items() if key != "PYTEST_CURRENT_TEST"}, pathlib.Path("/proc/self/limits").read_text(), status
 
 
 def server():
-    """None: the program is started anew, as where a test has set what its libraries read when they are loaded."""
-    loaded, environment = loaded_program()
-    return loaded if loaded and settings(environment) == settings(os.environ) else None
-
-
-def settings(environment):
-    return {key: value for key, value in environment.items() if key != "PYTEST_CURRENT_TEST"}
+    """None: the program is started anew, as where a test has set what it inherits."""
+    loaded, had = loaded_program()
+    return loaded if loaded and inherited() == had else None
 
 
 @pytest.fixture
