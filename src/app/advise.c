@@ -104,6 +104,21 @@ static PetscErrorCode TellOverlap_Private(const App *app, PetscInt pair, PetscBo
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+#define CHORD 0.05 /* of a facet: how deep facets may be in each other that are chords of arcs which touch; an eighth of the angle of one */
+
+/* Does one of this rank's nodes overlap by more than the mesh of sides that just touch leaves? */
+static PetscBool Overlaps_Private(const ContactView *view)
+{
+  const SurfaceView *s = &view->nonmortar;
+
+  for (PetscInt k = 0; k < s->num_nodes; ++k) {
+    if (!s->owned[k] || !view->active[k]) continue;
+    const PetscReal length = s->dim == 3 ? PetscSqrtReal(view->weight[k]) : view->weight[k];
+    if (view->gap[k] < -CHORD * length * view->weight[k]) return PETSC_TRUE;
+  }
+  return PETSC_FALSE;
+}
+
 PetscErrorCode AppNoteOverlaps(App *app)
 {
   const Interface contact = ProblemInterface(app->level.problem);
@@ -114,8 +129,7 @@ PetscErrorCode AppNoteOverlaps(App *app)
   PetscCall(ProblemRefresh(app->level.problem, app->level.accepted.x));
   for (PetscInt i = 0; i < app->data->num_contacts; ++i) {
     const ContactView *view = InterfaceGetContact(contact, i);
-    PetscBool          any  = app->overlaps[app->data->contacts[i].pair];
-    for (PetscInt k = 0; k < view->nonmortar.num_nodes; ++k) any = (PetscBool)(any || (view->nonmortar.owned[k] && view->active[k]));
+    PetscBool          any  = (PetscBool)(app->overlaps[app->data->contacts[i].pair] || Overlaps_Private(view));
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPIU_BOOL, MPI_LOR, app->comm));
     app->overlaps[app->data->contacts[i].pair] = any;
   }

@@ -106,11 +106,11 @@ static void Same(const Patch *p, Checkpoint c, PetscInt moves, PetscBool turned)
   }
   OK(TransferPack(p->problem, &p->state, &a));
   OK(TransferPack(problem, &state, &b));
-  assert_int_equal(a.num, 7);
+  assert_int_equal(a.num, 8);
   for (PetscInt f = 0; f < a.num; ++f) {
     PetscInt num;
     OK(VecGetSize(a.field[f].values, &num));
-    assert_true((num > 5) == (f == 0 || f == 1 || f >= 5)); /* displacement, pressure, multiplier, pattern; an elastic scene has no others */
+    assert_true((num > 5) == (f == 0 || f == 1 || f >= 6)); /* displacement, pressure, multiplier, pattern; an elastic scene has no others */
     OK(VecEqual(a.field[f].values, b.field[f].values, &equal));
     assert_true(equal);
   }

@@ -24,7 +24,7 @@ def test_critical_load(run):
     print(result.stdout)
     assert result.returncode == 2 and "the load may be critical" in result.summary["reason"]
     assert re.search(r"just beyond the last equilibrium, which is stable, .* the softest mode of that equilibrium moves most at \(1\S*, 0\.1\S*, 0\) of body r, and has lost", result.stdout)
-    assert re.search(r"forces were farthest out of balance at \(\S+, 0\.1\S*, 0\) of body [lr], on a side of pair [ab]", result.stdout)
+    assert re.search(r"forces were farthest out of balance at \(\S+, 0\.\S*, 0\)( of body [lr])?, on a side of pair [ab]", result.stdout)
 
 
 CORD = """
@@ -41,11 +41,12 @@ output: {fields: false}
 
 
 def test_neutral_is_not_unstable(run):
-    """A cord pressed between two flat faces without friction slides and rolls freely: the sign of the determinant is one of round-off in all ten steps. Then pressure from the
-    left, which the right wall does not hold yet: nothing does, and that is said."""
-    result = run("cord.yml", "-path_viscous", "off", text=CORD % (SCENES / "cord.geo"))
-    assert result.summary["t"] == 1 and result.summary["unstable_equilibria"] in (0, None) and "is unstable" not in result.stdout and "are unstable" not in result.stdout, result
-    assert result.returncode == 2 and re.search(r"the last equilibrium is neutral, a motion that moves most at .* of body cord meets no resistance", result.stdout), result
+    """A cord pressed between two flat faces without friction slides and rolls freely: the sign of the determinant is one of round-off in all ten steps, nor is it called
+    unstable when pressure drives it to the right wall. Where a step is not found, that a motion meets no resistance is said."""
+    text = CORD % (SCENES / "cord.geo")
+    result, stopped = run("cord.yml", "-path_viscous", "off", text=text), run("cord.yml", "-path_viscous", "off", "-snes_max_it", 4, text=text)
+    assert result.summary["t"] > 1 and result.summary["unstable_equilibria"] in (0, None) and "is unstable" not in result.stdout and "are unstable" not in result.stdout, result
+    assert stopped.returncode == 2 and re.search(r"the last equilibrium is neutral, a motion that moves most at .* of body cord meets no resistance", stopped.stdout), stopped
 
 
 KEY = """
