@@ -164,6 +164,12 @@ typedef struct {
   PetscReal fiber[3 * MATERIAL_MAX_FIBERS * NUM_LANES], F[9 * NUM_LANES], P[9 * NUM_LANES], W[NUM_LANES];
 } Pack;
 
+/* Is an answer of the law wanted? */
+static PetscBool Stress_Private(const PointValues *out)
+{
+  return (PetscBool)(out->P || out->W);
+}
+
 /* n points from xi on; remembered: NULL, or what a law with history knows. */
 static PetscErrorCode Points_Private(CellKernel k, PetscInt root, PetscInt n, const PetscReal *xi, ElementFields *fields, const PetscReal *pressure,
                                      const PetscReal *remembered, const PointValues *out, PetscBool *bad)
@@ -174,9 +180,14 @@ static PetscErrorCode Points_Private(CellKernel k, PetscInt root, PetscInt n, co
   PetscFunctionBegin;
   for (PetscInt q = 0; q < n; q++) {
     PetscCall(PointGradient_Private(k, fields, xi + q * k->dim, position[q], J[q], F[q]));
+    if (!Stress_Private(out)) continue;
     PackFibers_Private(k, root, position[q], q, n, pack.fiber);
     for (PetscInt c = 0; c < 9; c++) pack.F[c * n + q] = F[q][c];
   }
+  if (out->X) PetscCall(PetscArraycpy(out->X, position[0], 3 * n));
+  if (out->J) PetscCall(PetscArraycpy(out->J, J[0], 9 * n));
+  if (out->F) PetscCall(PetscArraycpy(out->F, F[0], 9 * n));
+  if (!Stress_Private(out)) PetscFunctionReturn(PETSC_SUCCESS);
   if (!remembered) {
     MaterialPoints point = {.n = n, .F = pack.F, .fiber = pack.fiber, .W = pack.W, .P = pack.P};
     PetscCall(MaterialEvaluate(&k->material, k->mixed ? MATERIAL_ISOCHORIC : MATERIAL_FULL, &point));
@@ -191,9 +202,6 @@ static PetscErrorCode Points_Private(CellKernel k, PetscInt root, PetscInt n, co
     }
     if (k->mixed) PetscCall(AddPointPressure_Private(k, xi + q * k->dim, pressure, F[q], P[q], &pack.W[q]));
   }
-  if (out->X) PetscCall(PetscArraycpy(out->X, position[0], 3 * n));
-  if (out->J) PetscCall(PetscArraycpy(out->J, J[0], 9 * n));
-  if (out->F) PetscCall(PetscArraycpy(out->F, F[0], 9 * n));
   if (out->P) PetscCall(PetscArraycpy(out->P, P[0], 9 * n));
   if (out->W) PetscCall(PetscArraycpy(out->W, pack.W, n));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -209,7 +217,7 @@ PetscErrorCode CellKernelPoints(CellKernel k, PetscInt root, PetscInt np, const 
   PetscCheck(!k->mixed || pressure, PETSC_COMM_SELF, PETSC_ERR_ARG_NULL, "A mixed cell needs its pressure coefficients");
   *bad = PETSC_FALSE;
   Fields_Private(k, X, u, &fields);
-  if (k->material.law->num_history > 0) {
+  if (k->material.law->num_history > 0 && Stress_Private(values)) {
     PetscCall(PetscMalloc1(k->num_points * REMEMBERED, &remembered));
     PetscCall(Remembered_Private(k, &fields, history, remembered, bad));
   }

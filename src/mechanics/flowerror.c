@@ -4,9 +4,9 @@
    feel them. */
 #include "mechanicsimpl.h"
 
-#define LEAST_PARTS 4 /* of a step in which material flows: they leave a quarter of what one does */
-#define MOST_PARTS 64 /* of one whose flow is many times the elastic strain */
-#define BISECTIONS 20 /* for where it begins */
+#define PARTS 4       /* of a step in which material flows, or of the elastic strain, at the beginning: they leave a quarter of what one does */
+#define GROWTH 1.5    /* of one part over the last: stress turns towards the direction of the flow within a few elastic strains, and then is there */
+#define BISECTIONS 10 /* for where it begins */
 
 /* R^T F1, R the rotation of f = F1 F0^-1, by Newton's method for the polar decomposition: R <- (R + R^-T) / 2. */
 static PetscBool Unturned_Private(const PetscReal F0[9], const PetscReal F1[9], PetscReal F[9])
@@ -90,20 +90,22 @@ static PetscErrorCode Elastic_Private(const MaterialSpec *m, const PetscReal his
   PetscCall(Once_Private(m, history, end, &flow, &ok));
   if (!ok || flow == 0) PetscFunctionReturn(PETSC_SUCCESS);
   for (PetscInt i = 0; i < BISECTIONS; ++i) {
-    const PetscReal middle = 0.5 * (share[0] + share[1]);
+    const PetscReal middle = i == 0 ? ROUND_LENGTH : 0.5 * (share[0] + share[1]); /* most of what flows has flowed before */
     Between_Private(F0, end, middle, F);
     PetscCall(Once_Private(m, history, F, &flow, &ok));
     share[flow > 0 || !ok] = middle;
+    if (share[1] <= ROUND_LENGTH) break;
   }
   Between_Private(F0, end, share[0], F);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* history at F0 -> at F1, in parts whose flow is a quarter of the elastic strain at most. What has no answer stays as it is. Fw: NULL, or F at the end of
-   `way`. */
+/* history at F0 -> at F1, in parts whose flow is a share of the elastic strain at the beginning. What has no answer stays as it is. Fw: NULL, or F at the end
+   of `way`. */
 static PetscErrorCode Follow_Private(const MaterialSpec *m, const PetscReal F0[9], const PetscReal Fw[9], const PetscReal F1[9], PetscReal history[])
 {
-  PetscReal start[9], end[9], F[9], flow, next[2][MATERIAL_MAX_HISTORY];
+  PetscReal start[9], end[9], F[9], flow, next[2][MATERIAL_MAX_HISTORY], share = 0;
+  PetscInt  last = 0;
   PetscBool ok;
 
   PetscFunctionBegin;
@@ -112,15 +114,16 @@ static PetscErrorCode Follow_Private(const MaterialSpec *m, const PetscReal F0[9
   PetscCall(Once_Private(m, history, end, &flow, &ok));
   if (!ok || flow == 0) PetscFunctionReturn(PETSC_SUCCESS); /* the straight way to a stress that does not flow is elastic */
   if (Fw) PetscCall(Elastic_Private(m, history, Fw, end, start));
-  const PetscInt parts = LEAST_PARTS * (PetscInt)PetscCeilReal(PetscMin(flow, MOST_PARTS / LEAST_PARTS));
   PetscCall(PetscArraycpy(next[0], history, m->law->num_history));
-  for (PetscInt i = 1; i <= parts; ++i) {
-    MaterialPoints part = {.n = 1, .F = F, .history = next[(i + 1) % 2], .trial = next[i % 2]};
-    Between_Private(start, end, (PetscReal)i / (PetscReal)parts, F);
-    PetscCall(MaterialEvaluate(m, MATERIAL_ISOCHORIC, &part));
-    if (part.bad) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscReal part = PetscMin(1, 1 / flow) / PARTS; share < 1; part = PetscMin(GROWTH * part, 1. / PARTS)) {
+    MaterialPoints point = {.n = 1, .F = F, .history = next[last], .trial = next[1 - last]};
+    share                = share + part < 1 - ROUND_LENGTH ? share + part : 1;
+    Between_Private(start, end, share, F);
+    PetscCall(MaterialEvaluate(m, MATERIAL_ISOCHORIC, &point));
+    if (point.bad) PetscFunctionReturn(PETSC_SUCCESS);
+    last = 1 - last;
   }
-  PetscCall(PetscArraycpy(history, next[parts % 2], m->law->num_history));
+  PetscCall(PetscArraycpy(history, next[last], m->law->num_history));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
