@@ -2,8 +2,6 @@
    of the rows of displacements; by inverse iteration with one factor. At a bifurcation or a limit point that eigenvalue is 0. */
 #include "solveimpl.h"
 
-#define ITERATIONS 30
-
 /* D: the largest entry of each row of displacements, 0 for all others. */
 static PetscErrorCode Scale_Private(Solver s, Mat A, Vec scale)
 {
@@ -20,43 +18,60 @@ static PetscErrorCode Scale_Private(Solver s, Mat A, Vec scale)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* K y = D v, again and again, from forces without symmetry. s->y is the mode. */
-static PetscErrorCode Iterate_Private(Solver s, Vec scale, PetscReal *stiffness)
+/* Forces without symmetry, from the reference positions: the same on any number of ranks. */
+static PetscErrorCode Start_Private(Solver s, Vec scale, Vec x)
 {
-  PetscReal  norm2, product;
-  PetscInt   first, num;
-  PetscReal *array;
+  const HPTables *v = HPSpaceGetTables(ProblemSpace(s->problem));
+  PetscReal      *local;
 
   PetscFunctionBegin;
-  PetscCall(VecGetOwnershipRange(s->rhs, &first, &num));
-  PetscCall(VecGetArray(s->rhs, &array));
-  for (PetscInt i = 0; i < num - first; ++i) array[i] = 1 + PetscSinReal(PetscSqrtReal(3) * (PetscReal)(first + i));
-  PetscCall(VecRestoreArray(s->rhs, &array));
+  PetscCall(PetscMalloc1(v->num_nodes * v->dim, &local));
+  SolverWithoutSymmetry_Private(v, local);
+  PetscCall(VecSet(x, 1));
+  PetscCall(ProblemSetDisplacement(s->problem, local, x));
+  PetscCall(PetscFree(local));
+  PetscCall(ProblemRightSide(s->problem, x, s->lift, s->rhs));
   PetscCall(VecPointwiseMult(s->rhs, s->rhs, scale));
-  for (PetscInt i = 0; i < ITERATIONS; ++i) {
-    PetscCall(SolverMatrixSolve_Private(s, s->rhs, (PetscBool)(i > 0)));
-    if (s->no_solution) break;
-    PetscCall(VecDot(s->rhs, s->y, &product));
-    PetscCall(VecPointwiseMult(s->rhs, s->y, scale));
-    PetscCall(VecDot(s->rhs, s->y, &norm2));
-    if (!(norm2 > 0)) break;
-    *stiffness = product / norm2;
-    PetscCall(VecScale(s->rhs, 1 / PetscSqrtReal(norm2)));
-  }
+  PetscCall(VecSet(x, 0)); /* nothing acts inside cells */
+  PetscCall(ProblemRightSide(s->problem, x, s->lift, s->y));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode Apply_Private(void *solver, PetscBool again, PetscBool *ok)
+{
+  Solver s = (Solver)solver;
+
+  PetscFunctionBegin;
+  PetscCall(SolverMatrixSolve_Private(s, s->rhs, again));
+  *ok = (PetscBool)!s->no_solution;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* s->y: the mode, with the tangent that is assembled. */
+static PetscErrorCode Lowest_Private(Solver s, Vec x, Lowest *low, PetscBool *known)
+{
+  Vec scale;
+  Mat A;
+
+  PetscFunctionBegin;
+  PetscCall(ProblemGetMatrix(s->problem, &A));
+  PetscCall(VecDuplicate(s->rhs, &scale));
+  PetscCall(Scale_Private(s, A, scale));
+  PetscCall(Start_Private(s, scale, x));
+  PetscCall(SolverInverseIteration_Private(Apply_Private, s, scale, s->rhs, s->y, low, known));
+  PetscCall(VecDestroy(&scale));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SolverLowestMode(Solver s, State *state, PetscReal *stiffness, Vec mode, PetscBool *known)
 {
   SolverReport report = {.reason = ""};
-  Vec          scale, r;
-  PetscInt     order;
+  Lowest       low    = {0};
   PetscBool    bad;
-  Mat          A;
+  Vec          r;
 
   PetscFunctionBegin;
   *known      = PETSC_FALSE;
-  *stiffness  = 0;
   s->report   = &report;
   s->pressure = state->pressure;
   s->form     = state->form;
@@ -66,22 +81,14 @@ PetscErrorCode SolverLowestMode(Solver s, State *state, PetscReal *stiffness, Ve
   PetscCall(ProblemSearch(s->problem, state->x));
   PetscCall(VecDuplicate(state->x, &r));
   PetscCall(ProblemResidual(s->problem, state->x, NULL, r, &report.status));
-  PetscCall(VecDestroy(&r));
   PetscCall(VecZeroEntries(s->lift));
   PetscCall(ProblemTangent(s->problem, state->x, s->pressure, s->lift, &bad));
   if (!bad && s->symmetric && !ProblemGetSymmetric(s->problem)) PetscCall(SolverUnsymmetric_Private(s));
-  if (!bad) {
-    PetscCall(ProblemGetMatrix(s->problem, &A));
-    PetscCall(VecDuplicate(s->rhs, &scale));
-    PetscCall(Scale_Private(s, A, scale));
-    PetscCall(Iterate_Private(s, scale, stiffness));
-    PetscCall(VecDestroy(&scale));
-    PetscCall(VecGetSize(s->y, &order));
-    *known = (PetscBool)!s->no_solution;
-    if (PetscAbsReal(*stiffness) <= PETSC_MACHINE_EPSILON * (PetscReal)order) *stiffness = 0; /* as the rank of a matrix is told in floating point */
-    PetscCall(PetscInfo(s->snes, "softest mode: eigenvalue %g\n", (double)*stiffness));
-    if (*known && mode) PetscCall(ProblemRecover(s->problem, s->y, mode));
-  }
+  if (!bad) PetscCall(Lowest_Private(s, r, &low, known));
+  if (*known && mode) PetscCall(ProblemRecover(s->problem, s->y, mode));
+  PetscCall(VecDestroy(&r));
+  *stiffness = PetscAbsReal(low.theta) > low.round_off ? low.theta : 0;
+  PetscCall(PetscInfo(s->snes, "softest mode: eigenvalue %g\n", (double)low.theta));
   s->report   = NULL;
   s->pressure = NULL;
   PetscFunctionReturn(PETSC_SUCCESS);

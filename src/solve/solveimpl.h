@@ -152,6 +152,16 @@ PetscErrorCode SingleFactorNegative_Private(PC, PetscInt *negative); /* pivots *
 PetscErrorCode SingleFactorOperations_Private(PC, Mat, PetscReal *operations);
 PetscErrorCode SingleFactorForget_Private(PC);
 
+/* inverse.c: y = A^-1 rhs; again: with the factor of the last time. */
+typedef PetscErrorCode (*InverseApply)(void *context, PetscBool again, PetscBool *ok);
+typedef struct {
+  PetscReal theta, norm2, round_off; /* eigenvalue; y . D y; below this theta is none */
+} Lowest;
+/* Forces at the nodes, [num_nodes][dim], without symmetry, from the reference positions alone. */
+void SolverWithoutSymmetry_Private(const HPTables *, PetscReal local[]);
+/* The eigenvalue nearest to 0 of A against the diagonal D = scale, from rhs, which is overwritten; y is its eigenvector. Not ok: A is singular. Collective. */
+PetscErrorCode SolverInverseIteration_Private(InverseApply, void *context, Vec scale, Vec rhs, Vec y, Lowest *, PetscBool *ok);
+
 /* inertia.c: on several processes MUMPS counts negative pivots only when told to; once before the first factor. The count, after each: s->negative. */
 PetscErrorCode SolverInertiaSetUp_Private(Solver);
 PetscErrorCode SolverInertia_Private(Solver, PC);

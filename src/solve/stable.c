@@ -5,10 +5,8 @@
    body that is free to slide or turn, or nothing is strained, the equilibrium is neutral and not unstable. */
 #include "solveimpl.h"
 
-#define ITERATIONS 30 /* inverse ones, with one factor */
 #define DOUBLINGS 40
 
-/* Forces without symmetry, from the reference positions. */
 static PetscErrorCode Start_Private(Descent *d)
 {
   const HPTables *v = HPSpaceGetTables(ProblemSpace(d->problem));
@@ -16,10 +14,7 @@ static PetscErrorCode Start_Private(Descent *d)
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(v->num_nodes * v->dim, &local));
-  for (PetscInt i = 0; i < v->num_nodes * v->dim; ++i) {
-    const PetscReal *X = v->X + 3 * (i / v->dim), a = 1 + (PetscReal)(i % v->dim);
-    local[i] = 1 / a + PetscSinReal(X[0] + PetscSqrtReal(3) * X[1] + PetscSqrtReal(5) * X[2] + a);
-  }
+  SolverWithoutSymmetry_Private(v, local);
   PetscCall(VecSet(d->gradient, 0));
   PetscCall(ProblemSetDisplacement(d->problem, local, d->gradient));
   PetscCall(PetscFree(local));
@@ -27,31 +22,30 @@ static PetscErrorCode Start_Private(Descent *d)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* (H + shift D) y = D v, again and again: dx is the eigenvector of the lowest eigenvalue of H against D, which is as large as the rows' entries, *curvature =
-   dx . H dx, of the displacements that the matrix knows, 0 where it is round-off of H. The factor is there. */
+static PetscErrorCode Apply_Private(void *descent, PetscBool again, PetscBool *ok)
+{
+  PetscFunctionBegin;
+  PetscCall(DescentApply_Private((Descent *)descent, ok));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* dx is the eigenvector of the lowest eigenvalue of H against D, which is as large as the rows' entries, *curvature = dx . H dx, of the displacements that the
+   matrix knows, 0 where it is round-off of H. The factor, of H + shift D, is there. */
 static PetscErrorCode Lowest_Private(Descent *d, PetscReal *curvature, PetscBool *ok)
 {
-  PetscReal theta = 0, norm2, product;
+  Lowest low;
 
   PetscFunctionBegin;
+  *curvature = 0;
   PetscCall(Start_Private(d));
   PetscCall(DescentApply_Private(d, ok));
+  if (!*ok) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(VecSet(d->gradient, 0)); /* nothing acts inside cells */
   PetscCall(ProblemMeritSide(d->problem, d->gradient, NULL, d->rhs));
-  for (PetscInt i = 0; i < ITERATIONS && *ok; ++i) {
-    PetscCall(VecPointwiseMult(d->rhs, d->diagonal, d->y));
-    PetscCall(VecDot(d->rhs, d->y, &norm2));
-    PetscCall(VecScale(d->rhs, 1 / PetscSqrtReal(norm2)));
-    PetscCall(DescentApply_Private(d, ok));
-    PetscCall(VecPointwiseMult(d->work, d->diagonal, d->y));
-    PetscCall(VecDot(d->work, d->y, &norm2));
-    PetscCall(VecDot(d->rhs, d->y, &product));
-    theta = product / norm2;
-  }
-  const PetscReal lowest = theta - d->shift;
-  PetscInt        order;
-  PetscCall(VecGetSize(d->y, &order));
-  *curvature = PetscAbsReal(lowest) > PETSC_MACHINE_EPSILON * (PetscReal)order ? lowest * norm2 : 0; /* as the rank of a matrix is told in floating point */
+  PetscCall(VecPointwiseMult(d->rhs, d->diagonal, d->y));
+  PetscCall(SolverInverseIteration_Private(Apply_Private, d, d->diagonal, d->rhs, d->y, &low, ok));
+  const PetscReal lowest = low.theta - d->shift;
+  if (PetscAbsReal(lowest) > low.round_off) *curvature = lowest * low.norm2;
   PetscCall(PetscInfo(d->ksp, "lowest eigenvalue %g, shift %g\n", (double)lowest, (double)d->shift));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
