@@ -154,6 +154,8 @@ static inline PetscErrorCode VecAssemble(Vec x)
 PetscErrorCode VecDuplicateAll(Vec, PetscInt num, Vec *const to[]);
 PetscErrorCode VecDestroyAll(PetscInt num, Vec *const x[]);
 
+/* What the rank with the largest value has, the first of these: its `size` bytes, on every one. Collective. */
+PetscErrorCode BroadcastLargest(MPI_Comm, PetscReal value, void *bytes, size_t size);
 /* The first rank of which `mine` holds; -1: of none. Collective. */
 PetscErrorCode RankFirst(MPI_Comm, PetscBool mine, PetscMPIInt *first);
 

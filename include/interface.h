@@ -259,9 +259,9 @@ void InterfaceWatchEnds(Interface, PetscBool begin);
 /* Are there facets under pressure whose forces frozen segmentation would change? In the plane those in which the mortar side ends: any of them, if that is set
    or the surface may meet itself; else those over whose end it went and came back (InterfaceWatchEnds). Collective. */
 PetscErrorCode InterfaceMayFreezeSegmentation(Interface, PetscBool any, PetscBool *yes);
+/* The states at hand are those that a warm start begins with. Returns the pairs in which a node of this rank bears, as bits. Not collective. */
+uint64_t InterfaceKeepActiveSet(Interface);
 /* A number that tells active sets and their states apart, the same on every rank. Collective. */
-/* The states at hand are those that a warm start begins with. */
-void           InterfaceKeepActiveSet(Interface);
 PetscErrorCode InterfaceActiveSetHash(Interface, uint64_t *hash);
 
 /* ---- augmented Lagrangian (merit.c): z_j = max(0, lambda_j - kappa_j g_j), kappa_j = factor c_j --------------------------------- */

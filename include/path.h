@@ -51,11 +51,11 @@ typedef struct {
   PetscInt         stabilised;                       /* that took the place of unstable ones */
   PetscInt         begun_anew;                       /* runs before this one that went on with other roles of contact pairs */
   PetscInt         folded_left;                      /* cells that were to be split and stayed as they were, for they are folded at a corner */
-  PetscBool        unstable_now;                     /* the last equilibrium found is unstable, … */
-  PetscInt         directions;                       /* … in so many directions at least */
+  PetscInt         unstable_now;                     /* directions in which the last equilibrium found is unstable, 0: none is known */
   PetscInt         modifiers[SOLVER_MOST_MODIFIERS]; /* interventions of Newton's modifiers */
   PetscInt         modifiers_in_step, iterations_in_step, cuts_in_step;
   PetscInt         failures;                  /* attempts of this load step in vain; a step shorter than asked for begins with one */
+  uint64_t         pressed;                   /* contact pairs in which nodes bore in a linear step, in vain or not, as bits */
   StepWork         work;                      /* of the step at hand */
   PetscReal        all_viscous_work;          /* of all steps accepted */
   PetscReal        flow_error, energy;        /* of all steps accepted, in the energy norm (StateFlowError); strain energy of the accepted state */
@@ -129,6 +129,8 @@ PetscErrorCode PathRefresh(Path *);
 PetscErrorCode PathReturn(Path *, const State *found, const ProblemStatus *status);
 /* The prescribed motion as it was at time t. Collective. */
 PetscErrorCode PathPrescribe(Problem, PetscReal t);
+/* Did nodes of a pair (ContactSpec.pair) bear in a linear step of this run, in vain or not? Not collective. */
+PetscBool PathPressed(const Path *, PetscInt pair);
 /* A load step begins: counters of one step. is_short: it is shorter than asked for, since an earlier one failed. */
 void PathBegin(Path *, PetscBool is_short);
 /* Where a step of dt from t ends: not beyond load.end, nor beyond a corner of an amplitude. */

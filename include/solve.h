@@ -24,6 +24,7 @@ typedef struct {
   PetscInt      descent_iterations; /* their tangent assemblies */
   PetscReal     fall;               /* of SolverStabilise: of the energy along the lowest eigenvector, in strain energies */
   PetscBool     neutral;            /* of SolverStabilise: the lowest eigenvalue is not below zero but by round-off */
+  uint64_t      pressed;            /* contact pairs in which nodes bore in a linear step, as bits; the same on every rank */
   PetscReal     residual, scale;
   ProblemPlace  worst; /* of the iterate at which it was given up */
   ProblemStatus status;

@@ -107,7 +107,7 @@ static PetscErrorCode RefineOnce_Private(App *app, RefineMode mode, MarkList *la
 {
   Level               old      = app->level;
   const ProblemStatus status   = app->path.status;
-  const PetscBool     unstable = app->path.unstable_now;
+  const PetscInt      unstable = app->path.unstable_now;
 
   PetscFunctionBegin;
   *folded = PETSC_FALSE;

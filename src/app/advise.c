@@ -104,39 +104,7 @@ static PetscErrorCode TellOverlap_Private(const App *app, PetscInt pair, PetscBo
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-#define CHORD 0.05 /* of a facet: how deep facets may be in each other that are chords of arcs which touch; an eighth of the angle of one */
-
-/* Does one of this rank's nodes overlap by more than the mesh of sides that just touch leaves? */
-static PetscBool Overlaps_Private(const ContactView *view)
-{
-  const SurfaceView *s = &view->nonmortar;
-
-  for (PetscInt k = 0; k < s->num_nodes; ++k) {
-    if (!s->owned[k] || !view->active[k]) continue;
-    const PetscReal length = s->dim == 3 ? PetscSqrtReal(view->weight[k]) : view->weight[k];
-    if (view->gap[k] < -CHORD * length * view->weight[k]) return PETSC_TRUE;
-  }
-  return PETSC_FALSE;
-}
-
-PetscErrorCode AppNoteOverlaps(App *app)
-{
-  const Interface contact = ProblemInterface(app->level.problem);
-
-  PetscFunctionBegin;
-  PetscCall(ProblemSetState(app->level.problem, &app->level.accepted));
-  PetscCall(ProblemSearch(app->level.problem, app->level.accepted.x));
-  PetscCall(ProblemRefresh(app->level.problem, app->level.accepted.x));
-  for (PetscInt i = 0; i < app->data->num_contacts; ++i) {
-    const ContactView *view = InterfaceGetContact(contact, i);
-    PetscBool          any  = (PetscBool)(app->overlaps[app->data->contacts[i].pair] || Overlaps_Private(view));
-    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPIU_BOOL, MPI_LOR, app->comm));
-    app->overlaps[app->data->contacts[i].pair] = any;
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* A pair whose sides begin in each other, and touch in no state that was found: they came apart on the way to the first. */
+/* A pair whose nodes bore on the way to a state, and in no state that was found. */
 static PetscErrorCode CameApart_Private(const App *app, const char *pair, const PairFigures *f)
 {
   char apart[64] = "";
@@ -144,7 +112,7 @@ static PetscErrorCode CameApart_Private(const App *app, const char *pair, const 
   PetscFunctionBegin;
   if (f->covered_nodes) PetscCall(PetscSNPrintf(apart, sizeof(apart), " (at the end they are %.3g apart)", (double)f->min_gap));
   PetscCall(PetscPrintf(app->comm,
-                        "note: the sides of pair %s overlap at the start, but touch in none of the states found%s: they came apart on the way to the first; "
+                        "note: the sides of pair %s were in contact on the way to a state found, but are in none of these%s: they came apart; "
                         "where they are meant to press on each other, support the bodies so that they cannot leave\n",
                         pair, apart));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -159,7 +127,7 @@ static PetscErrorCode Untouched_Private(const App *app)
     const PairFigures *f    = &app->balance.pair[pair];
     if (app->data->contacts[i].part || app->touched[pair] || f->tied) continue;
     PetscCall(TellOverlap_Private(app, i, PETSC_FALSE));
-    if (app->overlaps[pair])
+    if (PathPressed(&app->path, pair))
       PetscCall(CameApart_Private(app, app->data->contacts[i].name, f));
     else if (f->covered_nodes)
       PetscCall(PetscPrintf(app->comm, "note: the sides of pair %s have not touched; at the end they are %.3g apart\n", app->data->contacts[i].name,

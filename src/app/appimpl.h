@@ -64,7 +64,6 @@ typedef struct {
   PetscInt        *subdivided;     /* owned [num_contacts] by contact.<pair>.subdivide: auto, so often, or tried */
   FrictionFigures *friction;       /* owned, by ContactSpec.pair: of the last accepted load step of this run */
   PetscInt        *touched;        /* owned, by ContactSpec.pair: load step in which it was in contact first, at a node or between; 0: none */
-  PetscBool       *overlaps;       /* owned, by ContactSpec.pair: its sides overlap where the run begins, at a node */
   PetscReal        rough_error, rough_t, rough_norm; /* largest estimate of an accepted step, its time; largest norm */
   Folded           folded;                           /* most cells that an accepted step folded … */
   PetscReal        folded_t;                         /* … and its time */
@@ -188,8 +187,6 @@ PetscErrorCode AppRefuseThrown(Problem, const PetscReal from[], const State *, P
 PetscErrorCode AppWatch(App *);
 /* Before the first load step: a warning of bodies that overlap where no pair is between them. Collective. */
 PetscErrorCode AppTellOverlap(App *);
-/* Before it, too: whose sides begin in each other? Collective. */
-PetscErrorCode AppNoteOverlaps(App *);
 /* The warnings that sum up a run, before its summary is written. Collective. */
 PetscErrorCode AppWarn(App *);
 

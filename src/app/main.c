@@ -25,8 +25,7 @@ static PetscErrorCode Prepare_Private(App *app, Forest *forest)
 {
   PetscFunctionBegin;
   PetscCall(ProbesCreate(app->data, *forest, &app->probes));
-  PetscCall(PetscCalloc4(app->data->num_contacts, &app->subdivided, app->data->num_contacts, &app->touched, app->data->num_contacts, &app->friction,
-                         app->data->num_contacts, &app->overlaps));
+  PetscCall(PetscCalloc3(app->data->num_contacts, &app->subdivided, app->data->num_contacts, &app->touched, app->data->num_contacts, &app->friction));
   PetscCall(PetscMalloc1(app->data->mechanics.num_bodies, &app->adrift));
   AppForgetAdrift(app);
   PetscCall(AppNoteFirstMesh(app, *forest));
@@ -60,7 +59,6 @@ static PetscErrorCode Open_Private(App *app)
   PetscCall(MonitorCreate(app->comm, app->data, &app->monitor));
   PetscCall(AppTellFree(app));
   PetscCall(AppTellOverlap(app));
-  if (!app->restart[0]) PetscCall(AppNoteOverlaps(app));
   PetscCall(MonitorHeader(app->monitor, app->level.problem));
   if (app->restart[0]) PetscCall(MonitorResume(app->monitor, app->restart, &total));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -96,7 +94,7 @@ static PetscErrorCode Close_Private(App *app)
   PetscCall(CheckpointDestroy(&app->snapshot));
   OutputUnlock();
   PetscCall(NeedsDestroy(&app->needs));
-  PetscCall(PetscFree4(app->subdivided, app->touched, app->friction, app->overlaps));
+  PetscCall(PetscFree3(app->subdivided, app->touched, app->friction));
   PetscCall(FreeAll(3, (void *[]){&app->first_level, &app->adrift, &app->missed}));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

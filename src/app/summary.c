@@ -37,18 +37,13 @@ static PetscErrorCode Figures_Private(App *app)
 
 static PetscErrorCode Needs_Private(App *app, PetscReal seconds)
 {
-  PetscInt *touched;
-
-  PetscFunctionBegin;
-  PetscCall(PetscMalloc1(app->data->num_contacts, &touched));
-  for (PetscInt i = 0; i < app->data->num_contacts; ++i) touched[i] = app->overlaps[i] ? PetscMax(1, app->touched[i]) : app->touched[i];
   const NeedsRun run = {.comm         = app->comm,
                         .data         = app->data,
                         .level        = &app->level,
                         .path         = &app->path,
                         .balance      = &app->balance,
                         .estimate     = app->estimated ? &app->estimate : NULL,
-                        .touched      = touched,
+                        .touched      = app->touched,
                         .mirror       = app->mirror,
                         .mirror_at    = app->mirror_at,
                         .most_energy  = app->most_energy,
@@ -56,8 +51,9 @@ static PetscErrorCode Needs_Private(App *app, PetscReal seconds)
                         .load_steps   = app->load_steps,
                         .adapt_passes = app->adapt_passes,
                         .later        = app->later_solutions};
+
+  PetscFunctionBegin;
   PetscCall(NeedsFind(&run, &app->needs));
-  PetscCall(PetscFree(touched));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -87,6 +87,22 @@ PetscErrorCode VecDestroyAll(PetscInt num, Vec *const x[])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode BroadcastLargest(MPI_Comm comm, PetscReal value, void *bytes, size_t size)
+{
+  PetscMPIInt num;
+  struct {
+    double value;
+    int    rank;
+  } largest = {.value = (double)value};
+
+  PetscFunctionBegin;
+  PetscCall(PetscMPIIntCast((PetscInt)size, &num));
+  PetscCallMPI(MPI_Comm_rank(comm, &largest.rank));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE_INT, MPI_MAXLOC, comm));
+  PetscCallMPI(MPI_Bcast(bytes, num, MPI_BYTE, largest.rank, comm));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode RankFirst(MPI_Comm comm, PetscBool mine, PetscMPIInt *first)
 {
   PetscMPIInt rank, size;

@@ -28,10 +28,6 @@ PetscErrorCode FoldedFind(Problem problem, Vec x, Folded *folded, int8_t leaf[])
   const HPTables     *v     = HPSpaceGetTables(ProblemSpace(problem));
   PetscReal          *u, det, X[3];
   const MPI_Comm      comm = ForestComm(ProblemForest(problem));
-  struct {
-    double det;
-    int    rank;
-  } worst;
 
   PetscFunctionBegin;
   *folded = (Folded){.det = PETSC_MAX_REAL};
@@ -50,11 +46,8 @@ PetscErrorCode FoldedFind(Problem problem, Vec x, Folded *folded, int8_t leaf[])
     PetscCall(PetscArraycpy(folded->X, X, 3));
   }
   PetscCall(PetscFree(u));
-  worst.det = folded->det;
-  PetscCallMPI(MPI_Comm_rank(comm, &worst.rank));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_DOUBLE_INT, MPI_MINLOC, comm));
   if (leaf) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, leaf, (PetscMPIInt)t->num_leaves, MPI_INT8_T, MPI_MAX, comm));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &folded->num, 1, MPIU_INT, MPI_SUM, comm));
-  PetscCallMPI(MPI_Bcast(folded, (PetscMPIInt)sizeof(*folded), MPI_BYTE, worst.rank, comm));
+  PetscCall(BroadcastLargest(comm, -folded->det, folded, sizeof(*folded)));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

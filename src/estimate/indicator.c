@@ -351,16 +351,9 @@ static void Bound_Private(PetscInt num, PetscReal square[])
 /* The deepest overlap of all ranks; total and parts are known. */
 static PetscErrorCode Overlap_Private(MPI_Comm comm, const EstimateSum *sum, Estimate *e)
 {
-  struct {
-    double share;
-    int    rank;
-  } worst = {.share = sum->overlap.share};
-
   PetscFunctionBegin;
-  PetscCallMPI(MPI_Comm_rank(comm, &worst.rank));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_DOUBLE_INT, MPI_MAXLOC, comm));
   e->overlap = sum->overlap;
-  PetscCallMPI(MPI_Bcast(&e->overlap, (PetscMPIInt)sizeof(e->overlap), MPI_BYTE, worst.rank, comm));
+  PetscCall(BroadcastLargest(comm, e->overlap.share, &e->overlap, sizeof(e->overlap)));
   if (2 * e->part[PART_CONTACT] <= PetscSqr(e->total)) e->overlap.share = 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

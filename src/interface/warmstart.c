@@ -3,12 +3,19 @@
    by theta its surface is by theta^2 R / 2 off, and more than the pressure over c leaves no node in contact, nor anything that holds the body. */
 #include "interfaceimpl.h"
 
-void InterfaceKeepActiveSet(Interface p)
+uint64_t InterfaceKeepActiveSet(Interface p)
 {
+  uint64_t bear = 0;
+
   for (PetscInt i = 0; i < p->num_contacts; ++i) {
     const Contact *c = &p->contacts[i];
-    for (PetscInt k = 0; k < c->side[0].num_own && !c->tie; ++k) c->kept[c->side[0].own[k]] = c->active[c->side[0].own[k]];
+    for (PetscInt k = 0; k < c->side[0].num_own && !c->tie; ++k) {
+      const PetscInt j = c->side[0].own[k];
+      c->kept[j]       = c->active[j];
+      if (c->active[j]) bear |= UINT64_C(1) << i;
+    }
   }
+  return bear;
 }
 
 PetscErrorCode ContactWarmStart_Private(Interface p, Contact *c)

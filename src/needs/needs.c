@@ -132,7 +132,7 @@ static PetscErrorCode Contact_Private(Context *c)
   PetscFunctionBegin;
   for (PetscInt i = 0; i < data->num_contacts; ++i) {
     const PetscInt pair = data->contacts[i].pair;
-    if (data->contacts[i].part || c->run->touched[pair] || c->run->balance->pair[pair].tied) continue;
+    if (data->contacts[i].part || c->run->touched[pair] || PathPressed(c->run->path, pair) || c->run->balance->pair[pair].tied) continue;
     PetscCall(OfPair_Private(c, i, &contact, &matrix));
     const PetscReal system = StageSeconds(STAGE_SETUP) + StageSeconds(STAGE_FACTOR) + StageSeconds(STAGE_SOLVE);
     const PetscReal saves  = (contact * StageSeconds(STAGE_CONTACT) + matrix * system) / c->total;

@@ -6,18 +6,12 @@
 #define BACK 0.05 /* of the time: how far before the stiffness is asked for, too */
 
 /* Where a mode at x moves a node most, and of what body that is. */
-static PetscErrorCode Place_Private(Problem problem, Vec x, Vec mode, PetscReal place[4])
+static PetscErrorCode Place_Private(Problem problem, Vec x, Vec mode, Softest *soft)
 {
-  const HPTables *v    = HPSpaceGetTables(ProblemSpace(problem));
-  const MPI_Comm  comm = ForestComm(ProblemForest(problem));
+  const HPTables *v = HPSpaceGetTables(ProblemSpace(problem));
   PetscReal      *u[2], most = -1, size, way;
   PetscInt        node = -1;
   Vec             moved;
-  PetscMPIInt     rank;
-  struct {
-    double value;
-    int    rank;
-  } worst;
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc2(v->num_nodes * v->dim, &u[0], v->num_nodes * v->dim, &u[1]));
@@ -33,16 +27,12 @@ static PetscErrorCode Place_Private(Problem problem, Vec x, Vec mode, PetscReal 
     for (PetscInt c = 0; c < v->dim; ++c) length2 += PetscSqr(u[1][i * v->dim + c] - u[0][i * v->dim + c]);
     if (v->node_hang[i + 1] > v->node_hang[i] || length2 <= most) continue;
     most = length2;
-    PetscCall(PetscArraycpy(place, v->X + 3 * i, 3));
+    PetscCall(PetscArraycpy(soft->X, v->X + 3 * i, 3));
     node = i;
   }
-  if (node >= 0) place[3] = (PetscReal)ProblemNodeBody(problem, node);
+  if (node >= 0) soft->body = ProblemNodeBody(problem, node);
   PetscCall(PetscFree2(u[0], u[1]));
-  PetscCallMPI(MPI_Comm_rank(comm, &rank));
-  worst.value = (double)most;
-  worst.rank  = rank;
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_DOUBLE_INT, MPI_MAXLOC, comm));
-  PetscCallMPI(MPI_Bcast(place, 4, MPIU_REAL, worst.rank, comm));
+  PetscCall(BroadcastLargest(ForestComm(ProblemForest(problem)), most, soft, sizeof(*soft)));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -64,7 +54,7 @@ static PetscErrorCode Before_Private(Path *p, Vec mode, PetscReal *stiffness, Pe
 PetscErrorCode PathSoftest(Path *p, Softest *soft)
 {
   Level    *l = p->level;
-  PetscReal now, before, place[4];
+  PetscReal now, before;
   PetscBool known;
   Vec       mode;
 
@@ -76,9 +66,7 @@ PetscErrorCode PathSoftest(Path *p, Softest *soft)
   PetscCall(VecDuplicate(l->state.x, &mode));
   PetscCall(SolverLowestMode(l->solver, &l->state, &now, mode, &soft->known));
   if (soft->known) {
-    PetscCall(Place_Private(l->problem, l->state.x, mode, place));
-    PetscCall(PetscArraycpy(soft->X, place, 3));
-    soft->body    = (PetscInt)place[3];
+    PetscCall(Place_Private(l->problem, l->state.x, mode, soft));
     soft->neutral = (PetscBool)(now == 0);
     soft->from    = (1 - BACK) * l->accepted.t;
     if (now > 0 && !forgets) PetscCall(Before_Private(p, mode, &before, &known));

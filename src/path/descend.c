@@ -61,9 +61,9 @@ static PetscErrorCode Neutral_Private(Path *p)
   PetscBool known;
 
   PetscFunctionBegin;
-  if (p->directions > 1) PetscFunctionReturn(PETSC_SUCCESS);
+  if (p->unstable_now > 1) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SolverLowestMode(p->level->solver, &p->level->state, &stiffness, NULL, &known));
-  if (known && stiffness == 0) p->unstable_now = PETSC_FALSE;
+  if (known && stiffness == 0) p->unstable_now = 0;
   PetscCall(PathRefresh(p));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -72,6 +72,7 @@ PetscErrorCode PathStabilise(Path *p, PetscBool *changed)
 {
   Level        *l      = p->level;
   ProblemStatus status = p->status;
+  PetscInt      directions;
   PetscBool     neutral;
   PetscReal     fall;
   State         unstable;
@@ -80,11 +81,12 @@ PetscErrorCode PathStabilise(Path *p, PetscBool *changed)
   *changed = PETSC_FALSE;
   if (p->unstable_now && !PathCanDescend(p, NULL)) PetscCall(Neutral_Private(p));
   if (!p->unstable_now || !p->data->load.stable || !PathCanDescend(p, NULL)) PetscFunctionReturn(PETSC_SUCCESS);
+  directions = p->unstable_now;
   PetscCall(StateCreate(l->problem, &unstable));
   PetscCall(StateCopy(&l->state, &unstable));
   PetscCall(Leave_Private(p, &fall, &neutral, changed));
   if (*changed) {
-    p->unstable_now = PETSC_FALSE;
+    p->unstable_now = 0;
     if (p->stabilised++ == 0)
       PetscCall(PetscPrintf(
           ForestComm(l->forest),
@@ -93,7 +95,7 @@ PetscErrorCode PathStabilise(Path *p, PetscBool *changed)
           (double)l->state.t, (double)(100 * fall)));
   } else {
     PetscCall(PathReturn(p, &unstable, &status));
-    p->unstable_now = (PetscBool)!neutral;
+    p->unstable_now = neutral ? 0 : directions;
   }
   PetscCall(StateDestroy(&unstable));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -40,6 +40,13 @@ PetscErrorCode PathReturn(Path *p, const State *found, const ProblemStatus *stat
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscBool PathPressed(const Path *p, PetscInt pair)
+{
+  for (PetscInt i = 0; i < p->data->num_contacts; ++i)
+    if (p->data->contacts[i].pair == pair && (p->pressed >> i) & 1) return PETSC_TRUE;
+  return PETSC_FALSE;
+}
+
 void PathBegin(Path *p, PetscBool is_short)
 {
   p->failures          = is_short;
@@ -57,6 +64,7 @@ void PathCount(Path *p, const SolverReport *report, PetscBool equilibrium)
   p->factorisations += report->factorisations;
   p->single_failures += report->single_failures;
   p->descent_iterations += report->descent_iterations;
+  p->pressed |= report->pressed;
   for (PetscInt i = 0; i < SolverNumModifiers(); ++i) {
     p->modifiers[i] += report->modifiers[i];
     p->modifiers_in_step += report->modifiers[i];
@@ -65,8 +73,7 @@ void PathCount(Path *p, const SolverReport *report, PetscBool equilibrium)
   if (!report->converged) return;
   p->status = report->status;
   if (equilibrium && report->unstable >= 0) ++p->judged;
-  if (equilibrium) p->directions = report->unstable;
-  if (equilibrium) p->unstable_now = (PetscBool)(report->unstable > 0);
+  if (equilibrium) p->unstable_now = PetscMax(report->unstable, 0);
 }
 
 PetscErrorCode PathFrom(const Path *p, PetscReal **from)
@@ -127,7 +134,7 @@ static PetscErrorCode Unfreeze_Private(Path *p, const PathLoop *loop, SolverRepo
   ++count->tried;
   count->succeeded += easy;
   if (easy) {
-    p->unstable_now = (PetscBool)(plain.unstable > 0);
+    p->unstable_now = PetscMax(plain.unstable, 0);
     plain.iterations += report->iterations;
     *report = plain;
   } else

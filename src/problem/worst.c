@@ -3,7 +3,8 @@
 #include "problemimpl.h"
 
 typedef struct {
-  PetscReal most, X[3], body, pair; /* most: of the residual, negative where nothing was looked at */
+  PetscReal    most; /* of the residual, negative where nothing was looked at */
+  ProblemPlace place;
 } Worst;
 
 /* A cell that depends on a local node. */
@@ -44,11 +45,11 @@ static PetscErrorCode Forces_Private(Problem p, const PetscReal r[], Worst *w)
     node    = i / v->dim;
   }
   if (node < 0) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(PetscArraycpy(w->X, v->X + 3 * node, 3));
-  w->body = (PetscReal)ProblemNodeBody(p, node);
-  for (PetscInt i = 0; i < p->scene->num_contacts && w->pair < 0; ++i) {
+  PetscCall(PetscArraycpy(w->place.X, v->X + 3 * node, 3));
+  w->place.body = ProblemNodeBody(p, node);
+  for (PetscInt i = 0; i < p->scene->num_contacts && w->place.pair < 0; ++i) {
     const ContactView *view = InterfaceGetContact(p->interface, i);
-    if (Has_Private(&view->nonmortar, v->node_entity[node]) || Has_Private(&view->mortar, v->node_entity[node])) w->pair = (PetscReal)i;
+    if (Has_Private(&view->nonmortar, v->node_entity[node]) || Has_Private(&view->mortar, v->node_entity[node])) w->place.pair = i;
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -67,8 +68,8 @@ static PetscErrorCode Contact_Private(Problem p, Vec r, Worst *w)
     for (PetscInt k = 0; k < view->num_z * s->num_nodes; ++k) {
       const PetscInt node = k % s->num_nodes;
       if (!own[node] || PetscAbsReal(z[k]) <= w->most) continue;
-      *w = (Worst){.most = PetscAbsReal(z[k]), .body = -1, .pair = (PetscReal)i};
-      for (PetscInt c = 0; c < s->dim; ++c) w->X[c] = s->X[node * s->dim + c];
+      *w = (Worst){.most = PetscAbsReal(z[k]), .place = {.body = -1, .pair = i}};
+      for (PetscInt c = 0; c < s->dim; ++c) w->place.X[c] = s->X[node * s->dim + c];
     }
     PetscCall(PetscFree2(z, own));
   }
@@ -77,26 +78,17 @@ static PetscErrorCode Contact_Private(Problem p, Vec r, Worst *w)
 
 PetscErrorCode ProblemFindWorst(Problem p, Vec r, ProblemPlace *place)
 {
-  Worst            w = {.most = -1, .body = -1, .pair = -1};
+  Worst            w = {.most = -1, .place = {.body = -1, .pair = -1}};
   const PetscReal *array;
-  PetscMPIInt      rank;
-  struct {
-    double value;
-    int    rank;
-  } worst;
 
   PetscFunctionBegin;
   PetscCall(VecGetArrayRead(r, &array));
   PetscCall(Forces_Private(p, array, &w));
   PetscCall(VecRestoreArrayRead(r, &array));
   PetscCall(Contact_Private(p, r, &w));
-  PetscCallMPI(MPI_Comm_rank(p->comm, &rank));
-  worst.value = (double)w.most;
-  worst.rank  = rank;
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_DOUBLE_INT, MPI_MAXLOC, p->comm));
-  PetscCallMPI(MPI_Bcast(&w, sizeof(w) / sizeof(PetscReal), MPIU_REAL, worst.rank, p->comm));
-  *place = (ProblemPlace){.known = (PetscBool)(w.most > 0), .body = (PetscInt)w.body, .pair = (PetscInt)w.pair};
-  PetscCall(PetscArraycpy(place->X, w.X, 3));
+  w.place.known = (PetscBool)(w.most > 0);
+  PetscCall(BroadcastLargest(p->comm, w.most, &w.place, sizeof(w.place)));
+  *place = w.place;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

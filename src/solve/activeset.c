@@ -57,15 +57,13 @@ static PetscErrorCode Switch_Private(Solver s, Passes *p, PetscBool single, Vec 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The set may begin the next linear step if this one was of the whole problem. */
-static PetscErrorCode Keep_Private(Solver s, PetscBool settled)
+/* The set of the last pass may begin the next linear step, if this one was of the whole problem. */
+static void Keep_Private(Solver s, const Passes *p, PetscBool settled)
 {
-  PetscFunctionBegin;
   s->settled = settled && !s->no_solution ? ~(s->form.released | s->form.untouched) : 0;
-  if (!s->settled) PetscFunctionReturn(PETSC_SUCCESS);
-  InterfaceKeepActiveSet(ProblemInterface(s->problem));
-  PetscCall(InterfaceActiveSetHash(ProblemInterface(s->problem), &s->settled_set));
-  PetscFunctionReturn(PETSC_SUCCESS);
+  if (!s->settled) return;
+  s->report->pressed |= InterfaceKeepActiveSet(ProblemInterface(s->problem));
+  s->settled_set = s->pass_sets[p->pass - 1];
 }
 
 PetscErrorCode SolverActiveSetSolve_Private(Solver s, PetscBool again, Vec dx, PetscBool *settled)
@@ -98,7 +96,7 @@ PetscErrorCode SolverActiveSetSolve_Private(Solver s, PetscBool again, Vec dx, P
     if (disagree) PetscCall(StopAsked(PetscObjectComm((PetscObject)s->snes), &s->report->stopped));
   }
   *settled = (PetscBool)(disagree == 0);
-  PetscCall(Keep_Private(s, *settled));
+  Keep_Private(s, &p, *settled);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

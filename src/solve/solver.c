@@ -217,9 +217,11 @@ PetscErrorCode SolverSolve(Solver s, State *state, SolverReport *report)
   s->form = state->form;
   PetscCall(ProblemSetState(s->problem, state));
   PetscCall(SNESSolve(s->snes, NULL, state->x));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &report->pressed, 1, MPI_UINT64_T, MPI_BOR, PetscObjectComm((PetscObject)s->snes)));
   state->form = FormPlain(s->form.frozen_segmentation);
   PetscCall(ProblemSetState(s->problem, state)); /* points tell of the pressures found */
   s->report   = NULL;
+  s->state    = NULL;
   s->pressure = NULL;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
