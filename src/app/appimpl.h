@@ -86,6 +86,9 @@ typedef struct {
   char             before[PETSC_MAX_PATH_LEN];                                  /* the checkpoint before it */
 } App;
 
+/* kernels.c: OpenBLAS takes the dense kernels that this processor can run, where it does not know the processor. Before threads and MPI. */
+void AppKernels(void);
+
 /* start.c: PetscInitialize, cheaply for a single process. A file of -options_file that cannot be read is an input error. */
 PetscErrorCode AppInitialize(int argc, char **argv);
 /* optionfiles.c: is a file of options that PETSc will read one that names itself, or has a quotation mark that is not closed? told: which, and how. Before

@@ -243,6 +243,7 @@ PetscErrorCode AppInitialize(int argc, char **argv)
   for (int i = 0; alone && i < NUM_ALONE; ++i) set[i] = !getenv(Alone[i][0]) && !setenv(Alone[i][0], Alone[i][1], 1);
   OpenStandard_Private();
   OneThread_Private();
+  AppKernels();
   OneArena_Private();
   CheckRoom_Private(START_ROOM);
   arguments = Arguments_Private(&argc, argv);

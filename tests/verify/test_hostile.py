@@ -2,6 +2,8 @@
 import contextlib
 import json
 import os
+import pathlib
+import re
 import resource
 import subprocess
 
@@ -297,6 +299,20 @@ def test_hardly_any_memory(tmp_path, megabytes, threads):
     with limited(resource.RLIMIT_AS, 1024 * megabytes):
         done = subprocess.run([PROGRAM, "s.yml"], cwd=tmp_path, env=environ, capture_output=True, text=True, timeout=300)
     assert threads > 1 or (done.returncode == 0 and not done.stderr) or (done.returncode == 2 and done.stderr.startswith("mortise: out of memory") and done.stderr.count("\n") == 1), done
+
+
+def test_kernels_of_a_processor_that_openblas_does_not_know(tmp_path):
+    """Not those of 2004 where the processor can do more; what the user names stands."""
+    (tmp_path / "s.yml").write_text(block(tmp_path))
+    cores = {}
+    for name in ("", "Prescott"):
+        environ = {**os.environ, "OPENBLAS_VERBOSE": "2", **({"OPENBLAS_CORETYPE": name} if name else {})}
+        done = subprocess.run([PROGRAM, "s.yml", "-check"], cwd=tmp_path, env=environ, capture_output=True, text=True, timeout=60)
+        assert done.returncode == 0, done
+        cores[name] = re.findall(r"Core: (\w+)", done.stdout + done.stderr)
+    if "avx2" in pathlib.Path("/proc/cpuinfo").read_text().split():
+        assert cores[""][-1] != "Prescott"
+    assert set(cores["Prescott"]) <= {"Prescott"}
 
 
 def test_hardly_any_data(run, tmp_path):
