@@ -212,11 +212,13 @@ static void Cut_Private(Path *p, PathLoop *loop, PetscReal next)
   ++p->cuts_in_step;
 }
 
-/* One piece, to s = next: an attempt, and recoveries where that fails; rolled: by how much bodies rolled on each other in it. */
+/* One piece, to s = next: an attempt, and recoveries where that fails; rolled: by how much bodies rolled on each other in it. To an equilibrium farther off
+   they roll however short the piece is. */
 static PetscErrorCode Piece_Private(Path *p, const PathLoop *loop, PetscReal next, const State *start, PetscReal *rolled, PetscBool *recovered,
                                     SolverReport *report)
 {
-  PetscReal *from = NULL;
+  const PetscInt far  = PathNumFar(p);
+  PetscReal     *from = NULL;
 
   PetscFunctionBegin;
   *recovered = PETSC_FALSE;
@@ -228,7 +230,7 @@ static PetscErrorCode Piece_Private(Path *p, const PathLoop *loop, PetscReal nex
     if (loop->step && !p->stopped) PetscCall(PathRecover(p, loop, next, NULL, report));
     *recovered = report->converged;
   }
-  if (report->converged && from) PetscCall(ProblemRolls(p->level->problem, from, p->level->state.x, rolled));
+  if (report->converged && from && PathNumFar(p) == far) PetscCall(ProblemRolls(p->level->problem, from, p->level->state.x, rolled));
   PetscCall(PetscFree(from));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
