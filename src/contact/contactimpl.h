@@ -26,7 +26,7 @@ typedef struct {
   PetscInt   size_x[2], size_z;
 } ContactState;
 
-/* Mortar facets that a search found for each facet of its list: found[start[i] .. start[i+1]). */
+/* Mortar facets that a search found for each facet of its list, and (~facet) that it left out as only grazed: found[start[i] .. start[i+1]). */
 typedef struct {
   PetscInt num, *start, *found, size_start, size_found; /* owned */
 } Found;

@@ -3,9 +3,10 @@
    Which mortar facets reach into the region of a nonmortar facet's rays: region.c; of what is left the far sides of bodies are culled (culling.c).
    Distances and normals are judged here and nowhere else: between two searches the result changes continuously with the positions.
 
-   From one search to the next it does not: a facet that tilts, or a corner that comes to lie on the other side, loses what it faces. Gaps jump by that, and an
-   iteration that searches anew at each iterate goes to and fro between two states neither of which is a solution. So searches of one solve go on from each
-   other: what was found stays as long as it opposes at all and has not gone in deeper than nodes may move before the next search. */
+   From one search to the next it does not: a facet that tilts, or a corner that comes to lie on the other side, loses what it faces, or gains it. Gaps jump by
+   that, and an iteration that searches anew at each iterate goes to and fro between two states neither of which is a solution. So searches of one solve go on
+   from each other: what was found stays as long as it opposes at all and has not gone in deeper than nodes may move before the next search, and what was left
+   out as only grazed stays out as long as a neighbour faces it more squarely. */
 #include "kernelimpl.h"
 
 void ContactFacetBox(const ContactSurface *s, PetscInt facet, PetscReal box[6])
@@ -70,56 +71,60 @@ static PetscErrorCode ListFacets_Private(ContactPair pair, const ContactSurface 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* What the search that this one goes on from made of a mortar facet at this place of the list. */
+typedef enum { WAS_NOT_MET, WAS_FOUND, WAS_GRAZED } Was;
+
+static Was Was_Private(const ContactPair pair, PetscInt slot, PetscInt met)
+{
+  if (!pair->goes_on) return WAS_NOT_MET;
+  for (PetscInt k = pair->base.start[slot]; k < pair->base.start[slot + 1]; k++) {
+    if (pair->base.found[k] == met) return WAS_FOUND;
+    if (pair->base.found[k] == ~met) return WAS_GRAZED;
+  }
+  return WAS_NOT_MET;
+}
+
 /* Round a sharp edge of the nonmortar side one facet faces what the other one grazes. What the latter would see beside the edge is no gap of this contact: it
    came and went by CONTACT_OPPOSE as facets tilt, and with it the mean gap of the nodes on the edge. (Faces round an edge of the mortar side are pairs of their
    own.) Is the mortar facet one that this facet grazes and a neighbour faces? */
-static PetscBool IsGrazed_Private(const RayWork w, const ContactSurface *nonmortar, PetscInt facet, const ContactSurface *mortar, PetscInt met)
+static PetscBool IsGrazed_Private(const RayWork w, const ContactSurface *nonmortar, PetscInt facet, const ContactSurface *mortar, PetscInt met, Was was)
 {
   const PetscInt nv = 2 * (nonmortar->dim - 1);
   PetscReal      n[3], m[3], other[3];
 
   (void)ContactFacetNormal(nonmortar->dim, nonmortar->x, nonmortar->facets + nv * facet, n);
   (void)ContactFacetNormal(mortar->dim, mortar->x, mortar->facets + nv * met, m);
-  if (!(Dot3(n, m) > -STEEP && Dot3(n, m) < -CONTACT_OPPOSE)) return PETSC_FALSE;
+  const PetscReal squarely = Dot3(n, m), least = was == WAS_GRAZED ? PetscMin(squarely, -STEEP) : -STEEP;
+  if (was == WAS_FOUND || squarely >= -CONTACT_OPPOSE || (was != WAS_GRAZED && squarely <= -STEEP)) return PETSC_FALSE;
   for (PetscInt a = 0; a < nv; a++) {
     const PetscInt node = nonmortar->facets[nv * facet + a];
 
     for (PetscInt k = w->ring_first[node]; k < w->ring_first[node + 1]; k++) {
       (void)ContactFacetNormal(nonmortar->dim, nonmortar->x, nonmortar->facets + nv * (w->ring[k] / nv), other);
-      if (Dot3(other, m) < -STEEP && ContactFacetJoint(nonmortar, facet, w->ring[k] / nv) == JOINT_SHARP) return PETSC_TRUE;
+      if (Dot3(other, m) < least && ContactFacetJoint(nonmortar, facet, w->ring[k] / nv) == JOINT_SHARP) return PETSC_TRUE;
     }
   }
-  return PETSC_FALSE;
-}
-
-/* Does the mortar facet stay that this place of the list had by the search that this one goes on from? */
-static PetscBool Stays_Private(const ContactPair pair, PetscInt slot, const RayRegion *region, const ContactSurface *mortar, PetscInt facet)
-{
-  if (!pair->goes_on) return PETSC_FALSE;
-  for (PetscInt k = pair->base.start[slot]; k < pair->base.start[slot + 1]; k++)
-    if (pair->base.found[k] == facet) return ContactRayRegionMeets(region, mortar, facet, PETSC_TRUE);
   return PETSC_FALSE;
 }
 
 static PetscBool Meets_Private(ContactPair pair, const ContactSurface *nonmortar, PetscInt slot, const RayRegion *region, const FacetCorners *corners,
                                const ContactSurface *mortar, PetscInt met, PetscBool *grazed)
 {
-  const PetscInt  facet = pair->listed[slot];
-  const PetscBool stays = Stays_Private(pair, slot, region, mortar, met);
+  const PetscInt facet = pair->listed[slot];
+  Was            was   = Was_Private(pair, slot, met);
 
   /* where a smooth surface has been folded the gap of neighbours is 0, whatever moves */
   if (pair->self && ContactFacetJoint(mortar, facet, met) == JOINT_SMOOTH) return PETSC_FALSE;
-  if (!stays && !ContactRayRegionMeets(region, mortar, met, PETSC_FALSE)) return PETSC_FALSE;
-  *grazed = (PetscBool)(!stays && IsGrazed_Private(pair->ray, nonmortar, facet, mortar, met));
-  return (PetscBool)!ContactBehind(pair, facet, corners, mortar, met, stays ? pair->margin : 0);
+  if (was == WAS_FOUND && !ContactRayRegionMeets(region, mortar, met, PETSC_TRUE)) was = WAS_NOT_MET;
+  if (was != WAS_FOUND && !ContactRayRegionMeets(region, mortar, met, PETSC_FALSE)) return PETSC_FALSE;
+  *grazed = IsGrazed_Private(pair->ray, nonmortar, facet, mortar, met, was);
+  return (PetscBool)!ContactBehind(pair, facet, corners, mortar, met, was == WAS_FOUND ? pair->margin : 0);
 }
 
-/* Of the num facets met those that are only grazed go, but where a smooth surface goes on in them: it does not end there. Returns how many are left, in their
-   order. */
-static PetscInt Ungrazed_Private(const ContactSurface *mortar, PetscInt num, PetscInt met[], PetscBool grazed[])
+/* Facets met that are only grazed, but where a smooth surface goes on from them to others: it does not end there. */
+static void Grazed_Private(const ContactSurface *mortar, PetscInt num, const PetscInt met[], PetscBool grazed[])
 {
   PetscBool more = PETSC_TRUE;
-  PetscInt  left = 0;
 
   while (more) {
     more = PETSC_FALSE;
@@ -130,9 +135,20 @@ static PetscInt Ungrazed_Private(const ContactSurface *mortar, PetscInt num, Pet
           more      = PETSC_TRUE;
         }
   }
-  for (PetscInt i = 0; i < num; i++)
-    if (!grazed[i]) met[left++] = met[i];
-  return left;
+}
+
+/* What the search has made of the num facets met by the next place of the list, for searches that go on from it. */
+static PetscErrorCode Remember_Private(Found *f, PetscInt num, const PetscInt met[], const PetscBool grazed[])
+{
+  const PetscInt first = f->num ? f->start[f->num] : 0;
+
+  PetscFunctionBegin;
+  PetscCall(ArrayGrow(f->num + 2, sizeof(PetscInt), &f->size_start, &f->start));
+  PetscCall(ArrayGrow(first + num, sizeof(PetscInt), &f->size_found, &f->found));
+  for (PetscInt k = 0; k < num; k++) f->found[first + k] = grazed[k] ? ~met[k] : met[k];
+  f->start[0]        = 0;
+  f->start[++f->num] = first + num;
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Items whose boxes the region may meet, at most max (room in items[]); returns their number. Median splits bound the depth by log2(num) + 1. */
@@ -165,6 +181,7 @@ static PetscErrorCode Candidates_Private(ContactPair pair, const ContactSurface 
   FacetCorners corners;
 
   PetscFunctionBegin;
+  pair->last.num = 0;
   for (PetscInt i = 0; i < pair->num_listed; i++) {
     PetscInt num, met = 0;
 
@@ -176,27 +193,14 @@ static PetscErrorCode Candidates_Private(ContactPair pair, const ContactSurface 
     PetscCall(PetscSortInt(num, found)); /* results must not depend on the tree */
     for (PetscInt k = 0; k < num; k++)
       if (Meets_Private(pair, nonmortar, i, &region, &corners, mortar, found[k], &grazed[met])) found[met++] = found[k];
-    met = Ungrazed_Private(mortar, met, found, grazed);
+    Grazed_Private(mortar, met, found, grazed);
+    PetscCall(Remember_Private(&pair->last, met, found, grazed));
     PetscCall(ArrayGrow(total + met, sizeof(PetscInt), &pair->size_candidate, &pair->candidate));
-    PetscCall(PetscArraycpy(pair->candidate + total, found, met));
-    total += met;
+    for (PetscInt k = 0; k < met; k++)
+      if (!grazed[k]) pair->candidate[total++] = found[k];
   }
   pair->start[pair->num_listed] = total;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode Remember_Private(ContactPair pair)
-{
-  const PetscInt num = pair->num_listed, total = pair->start[num];
-  Found         *f = &pair->last;
-
-  PetscFunctionBegin;
-  PetscCall(ArrayGrow(num + 1, sizeof(PetscInt), &f->size_start, &f->start));
-  PetscCall(ArrayGrow(total, sizeof(PetscInt), &f->size_found, &f->found));
-  PetscCall(PetscArraycpy(f->start, pair->start, num + 1));
-  PetscCall(PetscArraycpy(f->found, pair->candidate, total));
-  f->num         = num;
-  pair->is_newer = PETSC_TRUE;
+  pair->is_newer                = PETSC_TRUE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -247,7 +251,6 @@ PetscErrorCode ContactPairSearch(ContactPair pair, const ContactSurface *nonmort
   PetscCall(PetscMalloc3(mortar->num_facets, &found, mortar->num_facets, &known, mortar->num_facets, &grazed));
   PetscCall(MortarTree_Private(mortar, known, &tree));
   PetscCall(Candidates_Private(pair, nonmortar, mortar, &tree, known, found, grazed));
-  PetscCall(Remember_Private(pair));
   if (!pair->goes_on) ContactPairKeepSearch(pair);
   PetscCall(PetscFree3(found, known, grazed));
   PetscCall(ContactTreeDestroy(&tree));

@@ -257,6 +257,44 @@ static void Trials(void **state)
   ChainDestroy(&nonmortar);
 }
 
+/* How many candidates the two flanks of a wedge of 90 degrees have below a facet that leans by this angle. */
+static PetscInt Leans(ContactPair pair, const Chain *wedge, PetscReal degrees)
+{
+  const PetscReal c = cos(degrees * PETSC_PI / 180), s = sin(degrees * PETSC_PI / 180);
+  const PetscInt *start, *candidate;
+  Chain           mortar;
+
+  ChainLine(&mortar, 2, -c, 0.1 - s, c, 0.1 + s);
+  SearchAll(pair, wedge, &mortar, 2, 0.1);
+  ContactPairGetCandidates(pair, &start, &candidate);
+  ChainDestroy(&mortar);
+  return start[2];
+}
+
+/* The flank that only grazes what the other one faces is left out, and in one solve stays so until it faces it more squarely than the other one: at 45 degrees
+   gaps would jump at whatever iterate comes by. */
+static void Grazes(void **state)
+{
+  Chain       wedge;
+  ContactPair pair;
+
+  ChainLine(&wedge, 3, 1, -1, -1, -1);
+  wedge.x[3] = 0;
+  ChainReference(&wedge);
+  PairCreate(PETSC_FALSE, PETSC_FALSE, &pair);
+  assert_int_equal(Leans(pair, &wedge, 0.2), 2);
+  assert_int_equal(Leans(pair, &wedge, 10), 1);
+  ContactPairGoOn(pair, PETSC_TRUE);
+  assert_int_equal(Leans(pair, &wedge, 0.2), 1);
+  assert_int_equal(Leans(pair, &wedge, -0.2), 2);
+  assert_int_equal(Leans(pair, &wedge, 0.2), 1);
+  assert_int_equal(Leans(pair, &wedge, -0.2), 2);
+  ContactPairKeepSearch(pair);
+  assert_int_equal(Leans(pair, &wedge, 10), 2);
+  CHECK_CALL(ContactPairDestroy(&pair));
+  ChainDestroy(&wedge);
+}
+
 /* A groove with flanks at 45 degrees; in it facets of `turn` degrees each, joined to a nose or apart, the first with its normal 50 degrees left of downwards.
    How many of them the right flank has for candidates. */
 static PetscInt InGroove(PetscInt num_facets, PetscReal turn, PetscBool joined)
@@ -568,4 +606,5 @@ static void Strip(void **state)
 
 CONTACT_TEST_MAIN("contact: search", cmocka_unit_test(BruteForce), cmocka_unit_test(Margin), cmocka_unit_test(Near), cmocka_unit_test(Groove),
                   cmocka_unit_test(Layers), cmocka_unit_test(Shoulder), cmocka_unit_test(Behind), cmocka_unit_test(Grazing), cmocka_unit_test(Trials),
-                  cmocka_unit_test(FarSides), cmocka_unit_test(Strip), cmocka_unit_test(LargeSliding), cmocka_unit_test(Empty), cmocka_unit_test(Time))
+                  cmocka_unit_test(Grazes), cmocka_unit_test(FarSides), cmocka_unit_test(Strip), cmocka_unit_test(LargeSliding), cmocka_unit_test(Empty),
+                  cmocka_unit_test(Time))

@@ -195,9 +195,6 @@ void ContactRayBeyond(const RayBeyond *, PetscInt m, PetscInt order, const Petsc
 void ContactRayBeyondSides(const PetscBool kept[4], RayBeyond *);
 
 /* direction.c */
-/* How two facets of a surface meet at a corner they share, at the reference positions: round an edge (CONTACT_SHARP) or not. */
-typedef enum { JOINT_NONE, JOINT_SMOOTH, JOINT_SHARP } FacetJoint;
-FacetJoint ContactFacetJoint(const ContactSurface *, PetscInt a, PetscInt b);
 /* parent[num_nodes][2]: ends of the edge in whose middle a corner hangs, -1. middle[num_facets][4] (or NULL): the corner that hangs on a side, -1. */
 PetscErrorCode ContactParents(const ContactSurface *, PetscInt parent[], PetscInt middle[]);
 PetscErrorCode ContactDirectionTopology(RayWork, const ContactSurface *, PetscBool friction);
