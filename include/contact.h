@@ -45,6 +45,11 @@ typedef struct {
   const PetscBool *rim; /* [num_nodes] corners on an edge beyond which the side goes on with another face (ContactSpec.face); NULL: none */
 } ContactSurface;
 
+/* How two facets of a surface meet at the first corner that they share, at the reference positions: round an edge (CONTACT_SHARP, of the normals there) or not.
+ */
+typedef enum { JOINT_NONE, JOINT_SMOOTH, JOINT_SHARP } FacetJoint;
+FacetJoint ContactFacetJoint(const ContactSurface *, PetscInt a, PetscInt b);
+
 typedef enum { CONTACT_FRICTIONLESS, CONTACT_PENALTY, CONTACT_COULOMB, CONTACT_TIED } ContactLaw; /* in the order of the table of laws */
 
 #define CONTACT_FRICTION "0 or a positive number" /* allowed as a coefficient of friction */

@@ -1,6 +1,6 @@
 /* Which of its dense kernels OpenBLAS runs. It knows the processors of its own time; on one of later make it falls back to those of 2004 (Prescott), and
-   factors take two to four times as long. Whatever serves AVX2 or AVX-512 serves the kernels that OpenBLAS has for these: named by its own variable, which it reads
-   where it is begun anew. What the user names there stands. */
+   factors take two to four times as long. Whatever serves AVX2 or AVX-512 serves the kernels that OpenBLAS has for these: named by its own variable, which it
+   reads where it is begun anew. What the user names there stands. */
 #include "appimpl.h"
 
 #include <stdlib.h>
@@ -16,7 +16,9 @@ static const char *Kernels_Private(void)
 #if defined(__x86_64__)
   __builtin_cpu_init();
   if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma")) return NULL;
-  return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") ? "SkylakeX" : "Haswell";
+  return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl")
+             ? "SkylakeX"
+             : "Haswell";
 #else
   return NULL;
 #endif

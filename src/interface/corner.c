@@ -51,15 +51,29 @@ static PetscReal Length_Private(const Surface *s, PetscInt facet)
   return s->dim == 2 ? measure : PetscSqrtReal(measure);
 }
 
-/* Do two facets meet at a convex angle of more than 40 degrees at the reference positions? */
-static PetscBool IsSharp_Private(const Surface *s, const Edge *e)
+/* Do two facets turn by more than 40 degrees from one to the other, outwards, at the reference positions? turn: the angle. */
+static PetscBool Turns_Private(const Surface *s, const Edge *e, PetscReal *turn)
 {
   PetscReal N[2][3], out = 0;
 
   for (PetscInt k = 0; k < 2; ++k) ContactFacetVector(s->dim, s->X, s->facets + s->corners * e->facet[k], N[k]);
   for (PetscInt k = 0; k < s->corners; ++k)
     for (PetscInt d = 0; d < s->dim; ++d) out += N[0][d] * (s->X[s->dim * s->facets[s->corners * e->facet[1] + k] + d] - s->X[s->dim * e->ends[0] + d]);
-  return (PetscBool)(out < 0 && Dot3(N[0], N[1]) < CONTACT_SHARP * PetscSqrtReal(Dot3(N[0], N[0]) * Dot3(N[1], N[1])));
+  const PetscReal cosine = Dot3(N[0], N[1]) / PetscSqrtReal(Dot3(N[0], N[0]) * Dot3(N[1], N[1]));
+  *turn                  = PetscAcosReal(PetscMax(-1, PetscMin(1, cosine)));
+  return (PetscBool)(out < 0 && cosine < CONTACT_SHARP);
+}
+
+/* Is that a corner to facets of this length? Where curved facets meet smoothly, few of them round a ball, so much of the angle counts as a facet wraps round.
+ */
+static PetscBool IsSharp_Private(const Surface *s, const Edge *e, PetscReal length)
+{
+  const ContactSurface reference = SurfaceAt_Private(s, s->X);
+  PetscReal            turn;
+
+  if (ContactFacetJoint(&reference, e->facet[0], e->facet[1]) == JOINT_SHARP) return PETSC_TRUE;
+  (void)Turns_Private(s, e, &turn);
+  return (PetscBool)(2 * turn * length > PetscAcosReal(CONTACT_SHARP) * (Length_Private(s, e->facet[0]) + Length_Private(s, e->facet[1])));
 }
 
 /* A place of a facet, for pairs of them to be found. */
@@ -76,7 +90,7 @@ static int CompareHalves_Private(const void *a, const void *b)
   return x->facet < y->facet ? -1 : x->facet > y->facet;
 }
 
-/* The sharp edges of a surface, where exactly two facets meet, and at[facet][place]: their numbers, -1. (Edges that hang are none.) */
+/* The edges of a surface at which it turns, where exactly two facets meet, and at[facet][place]: their numbers, -1. (Edges that hang are none.) */
 static PetscErrorCode Edges_Private(const Surface *s, PetscInt *num, Edge edge[], PetscInt at[])
 {
   const PetscInt places = Places_Private(s), halves = places * s->num_facets;
@@ -96,7 +110,8 @@ static PetscErrorCode Edges_Private(const Surface *s, PetscInt *num, Edge edge[]
     for (end = i + 1; end < halves && half[end].least == half[i].least && half[end].most == half[i].most;) ++end;
     if (end != i + 2) continue;
     const Edge e = {{half[i].facet, half[i + 1].facet}, {half[i].place, half[i + 1].place}, {half[i].least, half[i].most}};
-    if (!IsSharp_Private(s, &e)) continue;
+    PetscReal  turn;
+    if (!Turns_Private(s, &e, &turn)) continue;
     for (PetscInt k = 0; k < 2; ++k) at[places * e.facet[k] + e.place[k]] = *num;
     edge[(*num)++] = e;
   }
@@ -257,7 +272,8 @@ static PetscErrorCode Pair_Private(Interface p, PetscReal slack, PetscInt num_pa
   for (PetscInt i = 0; i < num_parts; ++i) PetscCall(Beside_Private(&part[i], mark, &beside));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &beside, 1, COMPAT_MPI_BOOL, MPI_LOR, p->comm));
   for (PetscInt k = 0; k < edges && !beside; ++k)
-    if (seen[k].flat <= 0 && (seen[k].inside > 0 || seen[k].presses > 0)) PetscCall(Add_Private(&part[0], &edge[k], seen[k].length, num, list));
+    if (seen[k].flat <= 0 && (seen[k].inside > 0 || seen[k].presses > 0) && IsSharp_Private(m, &edge[k], seen[k].length))
+      PetscCall(Add_Private(&part[0], &edge[k], seen[k].length, num, list));
   PetscCall(PetscFree2(seen, mark));
   PetscCall(PetscFree2(edge, at));
   PetscFunctionReturn(PETSC_SUCCESS);

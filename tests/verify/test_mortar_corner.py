@@ -30,8 +30,8 @@ def edge(size, friction=0):
                        "boundary": {"base": {"fix": "xy"}, "held": {"displacement": {"x": 0, "y": -0.05}}}, "contact": {"c": pair}, "load": {"step": 1}})
 
 
-def ends(run, text, *options, ranks=1):
-    result = run("s.yml", "-output_fields", "false", *options, text=text, ranks=ranks)
+def ends(run, text, *options, ranks=1, scene="s.yml"):
+    result = run(scene, "-output_fields", "false", *options, text=text, ranks=ranks)
     assert result.returncode == 0, result
     print(result.summary["contact"]["c"]["force"], result.summary["energy"], result.summary["estimated_error"], result.summary["newton_iterations"])
     return result
@@ -162,3 +162,10 @@ def test_corner_in_space(run, ranks):
     x, y, z = force(run("tests/verify/scenes/cube_corner.yml", *options, ranks=ranks))
     print(x, y, z)
     assert max(abs(x), abs(y)) < 0.05 * abs(z) and abs(z) > 0.01
+
+
+@pytest.mark.parametrize("cells,corner", [(8, 0), (4, 1)])
+def test_few_facets_round_a_tool(run, cells, corner):
+    """They turn by 45 degrees from middle to middle but meet smoothly: a corner only to facets so long that one wraps round."""
+    result = ends(run, None, "-mesh_parameter_n", cells, scene="tests/verify/scenes/round_tool.yml")
+    assert result.summary["begun_anew"] == corner and force(result)[1] == pytest.approx(-0.1925, rel=0.08 if corner else 0.01)
