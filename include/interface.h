@@ -26,9 +26,15 @@ typedef struct {
   PetscReal    proximal;        /* share of the small stiffness of bodies that no support holds (MechanicsSetProximalShift) */
 } Form;
 
+#define ALL_PAIRS (~UINT64_C(0))
+/* A set of one pair. Those that have no bit are in the set of all pairs alone. */
+static inline uint64_t FormPair(PetscInt pair)
+{
+  return pair < 64 ? UINT64_C(1) << pair : 0;
+}
 static inline PetscBool FormHas(uint64_t pairs, PetscInt pair)
 {
-  return (PetscBool)((pairs >> pair) & 1);
+  return (PetscBool)(pairs == ALL_PAIRS || (pairs & FormPair(pair)));
 }
 /* The derivative itself, in its exact form. */
 static inline Form FormPlain(PetscBool frozen_segmentation)

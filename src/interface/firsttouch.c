@@ -42,7 +42,7 @@ PetscErrorCode InterfaceFindUntouched(Interface p, uint64_t *pairs)
       if (c->zlocal[j] >= 0) most = PetscMax(most, PetscAbsReal(c->z[j]));
     }
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPIU_REAL, MPI_MAX, p->comm));
-    if (most == 0) *pairs |= (uint64_t)1 << i;
+    if (most == 0) *pairs |= FormPair(i);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

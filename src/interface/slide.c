@@ -82,7 +82,7 @@ PetscErrorCode InterfaceFindSliding(Interface p, PetscReal pending, PetscBool sw
       PetscCall(Slips_Private(p, &p->contacts[i], swap, &moved));
     else
       PetscCall(HasMoved_Private(p, &p->contacts[i], &moved));
-    if (moved) *pairs |= (uint64_t)1 << i;
+    if (moved) *pairs |= FormPair(i);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -12,7 +12,7 @@ uint64_t InterfaceKeepActiveSet(Interface p)
     for (PetscInt k = 0; k < c->side[0].num_own && !c->tie; ++k) {
       const PetscInt j = c->side[0].own[k];
       c->kept[j]       = c->active[j];
-      if (c->active[j]) bear |= UINT64_C(1) << i;
+      if (c->active[j]) bear |= FormPair(i);
     }
   }
   return bear;

@@ -43,7 +43,7 @@ PetscErrorCode InterfaceFindWide(Interface p, uint64_t *pairs)
   for (PetscInt i = 0; i < p->num_contacts; ++i) {
     if (p->contacts[i].tie) continue;
     PetscCall(IsWide_Private(p, &p->contacts[i], &wide));
-    if (wide) *pairs |= (uint64_t)1 << i;
+    if (wide) *pairs |= FormPair(i);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

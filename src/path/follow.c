@@ -43,7 +43,7 @@ PetscErrorCode PathReturn(Path *p, const State *found, const ProblemStatus *stat
 PetscBool PathPressed(const Path *p, PetscInt pair)
 {
   for (PetscInt i = 0; i < p->data->num_contacts; ++i)
-    if (p->data->contacts[i].pair == pair && (p->pressed >> i) & 1) return PETSC_TRUE;
+    if (p->data->contacts[i].pair == pair && FormHas(p->pressed, i)) return PETSC_TRUE;
   return PETSC_FALSE;
 }
 

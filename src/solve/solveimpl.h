@@ -3,7 +3,6 @@
 #include "solve.h"
 
 #define SOLVER_LARGE 20000       /* unknowns in space from which a factor in double is not the cheapest: one in single, or of order 1 a hierarchy */
-#define ALL_PAIRS (~(uint64_t)0) /* of Form.frozen_normals */
 #define SOLVER_MOST_RESERVE 1000 /* percent of workspace above MUMPS's estimate at which we give up */
 
 typedef enum { MODIFIER_AUTO, MODIFIER_ON, MODIFIER_OFF } ModifierMode;

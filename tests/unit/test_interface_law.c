@@ -25,6 +25,17 @@ static void Names(void **state)
   assert_string_equal(ContactLaws[CONTACT_TIED]->name, "tied");
 }
 
+/* Sets of pairs have a bit for each of the first 64; what has none is in that of all alone. */
+static void Sets(void **state)
+{
+  for (PetscInt pair = 0; pair < 200; ++pair) {
+    assert_true(FormHas(ALL_PAIRS, pair));
+    assert_int_equal(FormHas(FormPair(pair), pair), pair < 64);
+    assert_false(FormHas(FormPair(pair), pair + 64));
+    assert_false(FormHas(FormPair(3), pair) && pair != 3);
+  }
+}
+
 /* A node whose gap, weight and multiplier change with s. */
 static ContactPoint At(const ContactSpec *spec, PetscReal open, PetscReal s)
 {
@@ -206,7 +217,7 @@ static void Held(void **state)
 
 int main(int argc, char **argv)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(Names),           cmocka_unit_test(Derivatives), cmocka_unit_test(Friction),
-                                     cmocka_unit_test(FrictionInSpace), cmocka_unit_test(Held),        cmocka_unit_test(Tied)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(Names),           cmocka_unit_test(Sets), cmocka_unit_test(Derivatives), cmocka_unit_test(Friction),
+                                     cmocka_unit_test(FrictionInSpace), cmocka_unit_test(Held), cmocka_unit_test(Tied)};
   return cmocka_run_group_tests_name("interface: contact laws", tests, NULL, NULL);
 }
