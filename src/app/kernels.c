@@ -1,6 +1,6 @@
 /* Which of its dense kernels OpenBLAS runs. It knows the processors of its own time; on one of later make it falls back to those of 2004 (Prescott), and
-   factors take two to four times as long. Whatever serves AVX2 or AVX-512 serves the kernels that OpenBLAS has for these: named by its own variable, which it
-   reads where it is begun anew. What the user names there stands. */
+   runs in space took up to 1.7 times as long. Whatever serves AVX2 or AVX-512 serves the kernels that OpenBLAS has for these: named by its own variable, which
+   it reads where it is begun anew. What the user names there stands. */
 #include "appimpl.h"
 
 #include <stdlib.h>

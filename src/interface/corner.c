@@ -3,9 +3,11 @@
    gaps, at any size of facets. The side of the edge has nodes there, and is the better one to carry the multipliers (theory, 5, roles). */
 #include "interfaceimpl.h"
 
-/* Two facets of the mortar side that meet, in the plane at a node, in space along an edge, and where on each (Ends_Private); ends: its first and last node. */
+/* Two facets of the mortar side that meet, in the plane at a node, in space along an edge, and where on each (Ends_Private); ends: its first and last node;
+   turn: the angle from one facet to the other at the reference positions, 0 inwards. */
 typedef struct {
-  PetscInt facet[2], place[2], ends[2];
+  PetscInt  facet[2], place[2], ends[2];
+  PetscReal turn;
 } Edge;
 
 /* What it faces, as all ranks know: 1 or 0, and how long the facets are (plane: length; space: root of the area) that it presses on. */
@@ -51,29 +53,25 @@ static PetscReal Length_Private(const Surface *s, PetscInt facet)
   return s->dim == 2 ? measure : PetscSqrtReal(measure);
 }
 
-/* Do two facets turn by more than 40 degrees from one to the other, outwards, at the reference positions? turn: the angle. */
-static PetscBool Turns_Private(const Surface *s, const Edge *e, PetscReal *turn)
+/* Edge.turn, from the facets' mean normals. */
+static PetscReal Turn_Private(const Surface *s, const Edge *e)
 {
   PetscReal N[2][3], out = 0;
 
-  for (PetscInt k = 0; k < 2; ++k) ContactFacetVector(s->dim, s->X, s->facets + s->corners * e->facet[k], N[k]);
+  for (PetscInt k = 0; k < 2; ++k) (void)ContactFacetNormal(s->dim, s->X, s->facets + s->corners * e->facet[k], N[k]);
   for (PetscInt k = 0; k < s->corners; ++k)
     for (PetscInt d = 0; d < s->dim; ++d) out += N[0][d] * (s->X[s->dim * s->facets[s->corners * e->facet[1] + k] + d] - s->X[s->dim * e->ends[0] + d]);
-  const PetscReal cosine = Dot3(N[0], N[1]) / PetscSqrtReal(Dot3(N[0], N[0]) * Dot3(N[1], N[1]));
-  *turn                  = PetscAcosReal(PetscMax(-1, PetscMin(1, cosine)));
-  return (PetscBool)(out < 0 && cosine < CONTACT_SHARP);
+  return out < 0 ? PetscAcosReal(PetscMax(-1, PetscMin(1, Dot3(N[0], N[1])))) : 0;
 }
 
-/* Is that a corner to facets of this length? Where curved facets meet smoothly, few of them round a ball, so much of the angle counts as a facet wraps round.
- */
+/* Is it a corner, of more than 40 degrees, to facets of this length? Where curved facets meet smoothly, few of them round a ball, so much of the angle counts
+   as a facet wraps round. */
 static PetscBool IsSharp_Private(const Surface *s, const Edge *e, PetscReal length)
 {
   const ContactSurface reference = SurfaceAt_Private(s, s->X);
-  PetscReal            turn;
 
   if (ContactFacetJoint(&reference, e->facet[0], e->facet[1]) == JOINT_SHARP) return PETSC_TRUE;
-  (void)Turns_Private(s, e, &turn);
-  return (PetscBool)(2 * turn * length > PetscAcosReal(CONTACT_SHARP) * (Length_Private(s, e->facet[0]) + Length_Private(s, e->facet[1])));
+  return (PetscBool)(2 * e->turn * length > PetscAcosReal(CONTACT_SHARP) * (Length_Private(s, e->facet[0]) + Length_Private(s, e->facet[1])));
 }
 
 /* A place of a facet, for pairs of them to be found. */
@@ -90,7 +88,8 @@ static int CompareHalves_Private(const void *a, const void *b)
   return x->facet < y->facet ? -1 : x->facet > y->facet;
 }
 
-/* The edges of a surface at which it turns, where exactly two facets meet, and at[facet][place]: their numbers, -1. (Edges that hang are none.) */
+/* The edges of a surface at which it turns outwards by more than 40 degrees, where exactly two facets meet, and at[facet][place]: their numbers, -1. (Edges
+ * that hang are none.) */
 static PetscErrorCode Edges_Private(const Surface *s, PetscInt *num, Edge edge[], PetscInt at[])
 {
   const PetscInt places = Places_Private(s), halves = places * s->num_facets;
@@ -109,9 +108,9 @@ static PetscErrorCode Edges_Private(const Surface *s, PetscInt *num, Edge edge[]
   for (PetscInt i = 0, end; i < halves; i = end) {
     for (end = i + 1; end < halves && half[end].least == half[i].least && half[end].most == half[i].most;) ++end;
     if (end != i + 2) continue;
-    const Edge e = {{half[i].facet, half[i + 1].facet}, {half[i].place, half[i + 1].place}, {half[i].least, half[i].most}};
-    PetscReal  turn;
-    if (!Turns_Private(s, &e, &turn)) continue;
+    Edge e = {{half[i].facet, half[i + 1].facet}, {half[i].place, half[i + 1].place}, {half[i].least, half[i].most}, 0};
+    e.turn = Turn_Private(s, &e);
+    if (e.turn <= PetscAcosReal(CONTACT_SHARP)) continue;
     for (PetscInt k = 0; k < 2; ++k) at[places * e.facet[k] + e.place[k]] = *num;
     edge[(*num)++] = e;
   }

@@ -169,3 +169,6 @@ def test_few_facets_round_a_tool(run, cells, corner):
     """They turn by 45 degrees from middle to middle but meet smoothly: a corner only to facets so long that one wraps round."""
     result = ends(run, None, "-mesh_parameter_n", cells, scene="tests/verify/scenes/round_tool.yml")
     assert result.summary["begun_anew"] == corner and force(result)[1] == pytest.approx(-0.1925, rel=0.08 if corner else 0.01)
+    for ranks in (2, 3):
+        other = ends(run, None, "-mesh_parameter_n", cells, scene="tests/verify/scenes/round_tool.yml", ranks=ranks)
+        assert other.summary["begun_anew"] == corner and other.summary["energy"] == pytest.approx(result.summary["energy"], rel=1e-8)
