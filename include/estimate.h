@@ -17,17 +17,17 @@ typedef struct {
 
 typedef struct {
   PetscInt   num_leaves;
-  PetscReal *eta2;        /* owned [num_leaves] squared indicator of each leaf, replicated, unit: energy */
+  PetscReal *eta2;        /* owned [num_leaves] squared indicator of each leaf, as if nothing had flowed: they rank the leaves; replicated, unit: energy */
   PetscReal (*along)[3];  /* owned [num_leaves][3] what of eta2 can be told to come from each axis of the leaf, replicated; NULL: unknown */
   PetscReal *decay;       /* owned [num_leaves] rate at which the Legendre coefficients of the displacement fall from degree to degree (src/estimate/decay.c),
                              replicated; NULL: not wanted (strategy h) */
   int8_t         *order;  /* owned [num_leaves] of the cells, replicated; NULL with decay */
   int8_t         *lowest; /* owned [num_leaves] no order below: that of the scene; NULL with decay */
   int8_t         *irregular; /* owned [num_leaves] bits ESTIMATE_IRREGULAR_…, where a higher order gains little; NULL with decay */
-  PetscReal       total;     /* sqrt of the sum */
+  PetscReal       total;     /* sqrt of the sum of part: that of eta2 unless material flowed (src/estimate/flow.c) */
   PetscReal       norm;      /* energy-like norm of the solution: sqrt(2 * strain energy) */
   PetscReal       relative;  /* total / sqrt(norm^2 + total^2) */
-  PetscReal       part[5];   /* squared shares: interior, jumps, boundary, contact, incompressibility */
+  PetscReal       part[5];   /* squared shares: interior, jumps, boundary, contact, incompressibility, with what flow has left of the stiffness */
   EstimateOverlap overlap;   /* contact that no node has seen; none where contact is the lesser part of the estimate, which is round-off then */
 } Estimate;
 

@@ -12,13 +12,14 @@ static int Larger_Private(const void *a, const void *b)
 /* The fewest cells that hold half of the squared estimate. */
 static PetscErrorCode Half_Private(const Estimate *e, PetscInt *num)
 {
-  PetscReal *eta2, sum = 0;
+  PetscReal *eta2, half = 0;
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(e->num_leaves, &eta2));
   PetscCall(PetscArraycpy(eta2, e->eta2, e->num_leaves));
   qsort(eta2, (size_t)e->num_leaves, sizeof(*eta2), Larger_Private);
-  for (*num = 0; *num < e->num_leaves && sum < 0.5 * PetscSqr(e->total);) sum += eta2[(*num)++];
+  for (PetscInt l = 0; l < e->num_leaves; ++l) half += 0.5 * eta2[l];
+  for (*num = 0; *num < e->num_leaves && half > 0;) half -= eta2[(*num)++];
   PetscCall(PetscFree(eta2));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

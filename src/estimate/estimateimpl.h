@@ -86,10 +86,11 @@ typedef struct {
                              overestimated */
   PetscReal (*flux)[3];   /* [facets.num_points] cof F N of side 0: what a unit of pressure adds to its traction */
   PetscReal *compliance;  /* [num_owned_cells] of cells whose pressure is one number: what a unit of it adds to eta2 inside; else -1 */
-  PetscReal *eta2;        /* [num_leaves] sums of this rank */
+  PetscReal *left;        /* [num_leaves] what flow has left of a cell's stiffness, squared; NULL: nothing can flow (flow.c) */
+  PetscReal *eta2;        /* [num_leaves] sums of this rank, as if nothing had flowed: they rank the cells */
   PetscReal (*along)[3];  /* [num_leaves] sums of this rank: eta2 that can be told to come from each axis; NULL: not wanted */
-  PetscReal       part[NUM_PARTS], energy;
-  EstimateOverlap overlap; /* of this rank */
+  PetscReal       part[NUM_PARTS], energy; /* part: sums of this rank, with what flow has left of the stiffness: they are what is told */
+  EstimateOverlap overlap;                 /* of this rank */
 } EstimateSum;
 
 /* Fill space, mechanics, spec, contact, time, u, eta2 and along (zeroed); get this rank's sums. Collective where there is contact. */
@@ -113,6 +114,9 @@ typedef struct {
   PetscReal *X, *xi, *F, *P, *W, *J, *position, *weight, *g, *R, *S, *recovered; /* S: EstimateInterior_Private */
 } CellWork;
 
+/* flow.c: makes left; 1 where it is NULL. Collective. */
+PetscErrorCode EstimateFlow_Private(EstimateSum *);
+PetscReal      EstimateLeft_Private(const EstimateSum *, PetscInt leaf);
 /* recover.c */
 PetscErrorCode RecoveryCreate_Private(PetscInt dim, VolumeTable *);
 PetscErrorCode RecoveryDestroy_Private(VolumeTable *);
@@ -164,7 +168,7 @@ PetscBool ContactNodalGap_Private(const ContactView *, PetscInt node, PetscReal 
 PetscErrorCode GapPointsFind_Private(const EstimateSum *, const ContactTerm *, PetscInt num, const ContactSegment segments[], GapPoints *);
 PetscErrorCode EstimateGap_Private(EstimateSum *);
 /* (1 - nu^2)/E of a leaf's body, 0: rigid. Size of a facet over the order of its functions. */
-PetscReal EstimateCompliance_Private(const EstimateSum *, PetscInt leaf);
+PetscReal EstimateCompliance_Private(const EstimateSum *, PetscInt leaf, PetscBool flowed);
 PetscReal ContactFacetSize_Private(const SurfaceView *, PetscInt facet);
 /* slipterm.c: friction. Collective. */
 PetscErrorCode EstimateSlip_Private(EstimateSum *);

@@ -25,12 +25,12 @@ typedef struct {
   PetscReal *leaf; /* owned [num_leaves] */
 } BulgeWork;
 
-/* (1 - nu^2)/E, from mu/kappa: 1/(4 mu) where kappa is infinite. */
-PetscReal EstimateCompliance_Private(const EstimateSum *sum, PetscInt leaf)
+/* (1 - nu^2)/E, from mu/kappa: 1/(4 mu) where kappa is infinite; flowed: such that a gap has the energy that flow leaves it (flow.c). */
+PetscReal EstimateCompliance_Private(const EstimateSum *sum, PetscInt leaf, PetscBool flowed)
 {
   const MaterialSpec *m = sum->spec->bodies[sum->t->leaf_body[leaf]].material;
 
-  return m->law->rigid ? 0 : (3 + 4 * m->mu / m->kappa) / (4 * m->mu * (3 + m->mu / m->kappa));
+  return m->law->rigid ? 0 : (3 + 4 * m->mu / m->kappa) / (4 * m->mu * (3 + m->mu / m->kappa)) / (flowed ? EstimateLeft_Private(sum, leaf) : 1);
 }
 
 /* Size of a facet over the order of its functions. */
@@ -98,16 +98,17 @@ static PetscReal Square_Private(const GapPoint *p, PetscBool ties, PetscReal s)
 }
 
 /* s at a point, of the cells on either side; 0: both are rigid, there is no energy. compliance[2]: of either. */
-static PetscReal Stiffness_Private(const EstimateSum *sum, const ContactTerm *term, const GapPoint *p, PetscReal size, PetscReal compliance[2])
+static PetscReal Stiffness_Private(const EstimateSum *sum, const ContactTerm *term, const GapPoint *p, PetscReal size, PetscBool flowed,
+                                   PetscReal compliance[2])
 {
-  compliance[0] = EstimateCompliance_Private(sum, term->view->nonmortar.facet_leaf[p->segment->facet]);
-  compliance[1] = EstimateCompliance_Private(sum, term->view->mortar.facet_leaf[p->segment->mortar_facet]);
+  compliance[0] = EstimateCompliance_Private(sum, term->view->nonmortar.facet_leaf[p->segment->facet], flowed);
+  compliance[1] = EstimateCompliance_Private(sum, term->view->mortar.facet_leaf[p->segment->mortar_facet], flowed);
   return compliance[0] + compliance[1] == 0 ? 0 : PETSC_PI / (size * (compliance[0] + compliance[1]));
 }
 
 /* The share of the squares of overlap on a facet that counts: bodies that yield as a whole, as slender ones do, rather move apart by the deepest overlap, which
    takes the work of the facet's force on it. */
-static PetscReal Yield_Private(const EstimateSum *sum, const ContactTerm *term, PetscReal size, const GapPoints *points)
+static PetscReal Yield_Private(const EstimateSum *sum, const ContactTerm *term, PetscReal size, PetscBool flowed, const GapPoints *points)
 {
   PetscReal force = 0, deepest = 0, squares = 0, compliance[2];
 
@@ -117,7 +118,7 @@ static PetscReal Yield_Private(const EstimateSum *sum, const ContactTerm *term, 
     force += p->weight * p->pressure;
     if (gap == 0) continue;
     deepest = PetscMax(deepest, -gap);
-    squares += p->weight * Stiffness_Private(sum, term, p, size, compliance) * PetscSqr(gap);
+    squares += p->weight * Stiffness_Private(sum, term, p, size, flowed, compliance) * PetscSqr(gap);
   }
   return force > 0 && squares > 2 * force * deepest ? 2 * force * deepest / squares : 1;
 }
@@ -131,26 +132,30 @@ static void Overlap_Private(EstimateSum *sum, const ContactTerm *term, PetscReal
   }
 }
 
+/* A pair on a facet: squares as if nothing had flowed rank the cells, those with what flow has left are told. */
 static void Facet_Private(EstimateSum *sum, const ContactTerm *term, PetscInt facet, const GapPoints *points, BulgeWork *work)
 {
   const PetscInt  leaf = term->view->nonmortar.facet_leaf[facet];
   const PetscReal size = ContactFacetSize_Private(&term->view->nonmortar, facet), bend = Bend_Private(points);
-  const PetscBool ties  = (PetscBool)(term->view->spec->law == CONTACT_TIED);
-  const PetscReal yield = ties ? 1 : Yield_Private(sum, term, size, points);
-  PetscReal       gaps  = 0, compliance[2];
+  const PetscBool ties = (PetscBool)(term->view->spec->law == CONTACT_TIED);
+  PetscReal       gaps = 0, compliance[2], yield[2];
 
   Overlap_Private(sum, term, size, points);
+  for (int flowed = 0; flowed < 2; ++flowed) yield[flowed] = ties ? 1 : Yield_Private(sum, term, size, (PetscBool)flowed, points);
   for (PetscInt i = 0; i < points->num; ++i) gaps += points->points[i].weight * PetscSqr(points->points[i].gap);
   for (PetscInt i = 0; i < points->num; ++i) {
     const GapPoint *p     = &points->points[i];
     const PetscInt  other = term->view->mortar.facet_leaf[p->segment->mortar_facet];
-    const PetscReal s     = Stiffness_Private(sum, term, p, size, compliance);
-    if (s == 0) continue; /* what is not a number is to show */
-    const PetscReal square = p->weight * Square_Private(p, ties, s) * (!ties && Gap_Private(p) < 0 ? yield : 1);
-    const PetscReal share  = MortarShare_Private(term, p, compliance, gaps > bend ? bend / gaps : 1);
-    sum->eta2[leaf] += (1 - share) * square;
-    sum->eta2[other] += share * square;
-    sum->part[PART_CONTACT] += square;
+    PetscReal       square[2];
+    for (int flowed = 1; flowed >= 0; --flowed) {
+      const PetscReal s = Stiffness_Private(sum, term, p, size, (PetscBool)flowed, compliance);
+      square[flowed]    = s == 0 ? 0 : p->weight * Square_Private(p, ties, s) * (!ties && Gap_Private(p) < 0 ? yield[flowed] : 1);
+    }
+    if (compliance[0] + compliance[1] == 0) continue; /* what is not a number is to show */
+    const PetscReal share = MortarShare_Private(term, p, compliance, gaps > bend ? bend / gaps : 1);
+    sum->eta2[leaf] += (1 - share) * square[0];
+    sum->eta2[other] += share * square[0];
+    sum->part[PART_CONTACT] += square[1];
     for (PetscInt k = 0; k < 2; ++k) {
       const PetscReal done = 2 * p->weight * p->trace * p->bulge[k];
       work->sum[0] += done;

@@ -162,20 +162,22 @@ static PetscReal VolumetricModulus_Private(const EstimateSum *sum, const Materia
 
 /* Incompressibility: 1/kappa |q|^2, the error of the pressure as recovered (modulus for kappa where that is more, for q balances the error of the stress), and
    w |g - Proj g|^2, w = 2 mu / (1 + 2 mu / kappa): a volume error that the pressure space does not see is answered by shear, however stiff the material is
-   against its mean. */
-static PetscErrorCode Volume_Private(const EstimateSum *sum, PetscInt cell, const MaterialSpec *material, const VolumeTable *table, PetscReal modulus,
-                                     CellWork *w, PetscReal *square)
+   against its mean; of that what flow has left of the stiffness is told. */
+static PetscErrorCode Volume_Private(EstimateSum *sum, PetscInt cell, const MaterialSpec *material, const VolumeTable *table, PetscReal modulus, CellWork *w)
 {
+  const PetscInt  leaf  = sum->v->cell_leaf[cell];
   const PetscReal kappa = VolumetricModulus_Private(sum, material);
 
   PetscFunctionBegin;
-  *square = WeightedSquare_Private(table->num, 1, w->weight, w->recovered) / PetscMax(kappa, modulus);
+  const PetscReal seen = WeightedSquare_Private(table->num, 1, w->weight, w->recovered) / PetscMax(kappa, modulus);
   if (table->order == 1) {
     sum->compliance[cell] = 0;
     for (PetscInt q = 0; q < table->num; ++q) sum->compliance[cell] += w->weight[q] / PetscMax(kappa, modulus);
   }
   PetscCall(UnseenVolume_Private(sum, material, table, w));
-  *square += 2 * material->mu / (1 + 2 * material->mu / kappa) * WeightedSquare_Private(table->num, 1, w->weight, w->g);
+  const PetscReal unseen = 2 * material->mu / (1 + 2 * material->mu / kappa) * WeightedSquare_Private(table->num, 1, w->weight, w->g);
+  sum->eta2[leaf] += seen + unseen;
+  sum->part[PART_VOLUME] += seen + EstimateLeft_Private(sum, leaf) * unseen;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -201,10 +203,7 @@ static PetscErrorCode OwnedCell_Private(EstimateSum *sum, PetscInt cell, const V
   sum->eta2[leaf] += square;
   sum->part[PART_INTERIOR] += square;
   EstimateInterior_Private(sum, leaf, table->num, w->weight, w->S, square);
-  if (!material->mixed) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(Volume_Private(sum, cell, material, table, modulus, w, &square));
-  sum->eta2[leaf] += square;
-  sum->part[PART_VOLUME] += square;
+  if (material->mixed) PetscCall(Volume_Private(sum, cell, material, table, modulus, w));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -325,6 +324,7 @@ PetscErrorCode EstimateBulk_Private(EstimateSum *sum)
                          &sum->dA, sum->facets.num_points, &sum->modulus));
   PetscCall(PetscCalloc2(sum->v->num_owned_cells, &height, sum->v->num_owned_cells, &sum->compliance));
   for (PetscInt c = 0; c < sum->v->num_owned_cells; ++c) sum->compliance[c] = -1;
+  PetscCall(EstimateFlow_Private(sum));
   PetscCall(Cells_Private(sum, height));
   PetscCall(EstimateLevels_Private(sum, ForestComm(forest), height));
   PetscCall(EstimateFacets_Private(sum, height));
@@ -334,6 +334,7 @@ PetscErrorCode EstimateBulk_Private(EstimateSum *sum)
     PetscCall(EstimateSlip_Private(sum));
   }
   if (sum->along) PetscCall(EstimateDoubts_Private(sum));
+  PetscCall(PetscFree(sum->left));
   PetscCall(PetscFree2(height, sum->compliance));
   PetscCall(PetscFree5(sum->defect, sum->normal, sum->flux, sum->dA, sum->modulus));
   PetscCall(FacetListDestroy_Private(&sum->facets));
@@ -379,7 +380,7 @@ static PetscErrorCode Reduce_Private(MPI_Comm comm, EstimateSum *sum, Estimate *
   const PetscReal energy = buffer[e->num_leaves + NUM_PARTS];
   PetscCall(PetscFree(buffer));
   e->total = 0;
-  for (PetscInt l = 0; l < e->num_leaves; ++l) e->total += e->eta2[l];
+  for (PetscInt i = 0; i < NUM_PARTS; ++i) e->total += e->part[i];
   e->total    = PetscSqrtReal(e->total);
   e->norm     = PetscSqrtReal(2 * PetscMax(energy, 0));
   e->relative = e->total > 0 ? e->total / PetscSqrtReal(PetscSqr(e->norm) + PetscSqr(e->total)) : 0;

@@ -66,9 +66,11 @@ static PetscReal Rank_Private(const Estimate *e, const int8_t split[], const int
 
 /* Is the error that stays above the tolerance by itself? Then nothing that is done to other leaves meets it: at a singular corner they would be refined without
    end. Strategy p, whose cells are never split, goes on to the highest orders. With a path the parts of eta2 are of different times (norm is 0), and may not be
-   added up. */
-static PetscBool IsInVain_Private(const Estimate *e, const AdaptSpec *spec, PetscReal left)
+   added up. share: of the squared estimate, stays. */
+static PetscBool IsInVain_Private(const Estimate *e, const AdaptSpec *spec, PetscReal share)
 {
+  const PetscReal left = share * PetscSqr(e->total);
+
   if (spec->strategy == ADAPT_P || !(e->norm > 0)) return PETSC_FALSE;
   return (PetscBool)(left > PetscSqr(spec->tolerance) * (PetscSqr(e->norm) + left));
 }
@@ -113,9 +115,10 @@ PetscErrorCode EstimateMark(const Estimate *e, const AdaptSpec *spec, Forest for
   PetscCall(PetscCalloc1(e->num_leaves, &marks->split));
   PetscCall(PetscCalloc1(e->num_leaves, &marks->coarsen));
   if (order) PetscCall(PetscArraycpy(order, e->order, e->num_leaves));
-  const PetscReal total = Rank_Private(e, split, raise, rank, &left);
-  const PetscInt  room  = PetscMax(0, spec->max_cells - e->num_leaves);
-  *num_marked = IsInVain_Private(e, spec, left) ? 0 : Bulk_Private(e->num_leaves, rank, spec->fraction * total * (1 - 1e-12), PetscMax(TIE, spec->alike), room);
+  const PetscReal total = Rank_Private(e, split, raise, rank, &left), share = total + left > 0 ? left / (total + left) : 0;
+  const PetscInt  room = PetscMax(0, spec->max_cells - e->num_leaves);
+  *num_marked =
+      IsInVain_Private(e, spec, share) ? 0 : Bulk_Private(e->num_leaves, rank, spec->fraction * total * (1 - 1e-12), PetscMax(TIE, spec->alike), room);
   for (PetscInt i = 0; i < *num_marked; ++i) {
     marks->split[rank[i].leaf] = split[rank[i].leaf];
     if (order) order[rank[i].leaf] += raise[rank[i].leaf];

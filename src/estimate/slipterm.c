@@ -22,17 +22,22 @@ static void Point_Private(EstimateSum *sum, const ContactTerm *term, const Conta
 {
   const SurfaceView *s = &term->view->nonmortar, *m = &term->view->mortar;
   const PetscInt     leaf = s->facet_leaf[p->facet], other = m->facet_leaf[p->mortar_facet];
-  const PetscReal    compliance[2] = {EstimateCompliance_Private(sum, leaf), EstimateCompliance_Private(sum, other)}, both = compliance[0] + compliance[1];
+  PetscReal          both, soft, square[2];
   const PetscReal    size[2] = {ContactFacetSize_Private(s, p->facet), ContactFacetSize_Private(m, p->mortar_facet)};
   PetscReal          n[3], q[3];
 
-  if (both == 0) return;
   const PetscReal z = ContactPressing_Private(term, (PetscBool)(sum->spec->kinematics == KINEMATICS_FINITE), p->facet, p->xi, n, q);
-  const PetscReal k = PETSC_PI / (size[0] * both), square = p->weight * Square_Private(term->view->friction * PetscMax(z, 0), k, q, p->slip) / k;
-  const PetscReal share = PetscSqr(size[1]) / (PetscSqr(size[0]) + PetscSqr(size[1])) * compliance[1] / both;
-  sum->eta2[leaf] += (1 - share) * square;
-  sum->eta2[other] += share * square;
-  sum->part[PART_CONTACT] += square;
+  for (int flowed = 1; flowed >= 0; --flowed) {
+    soft = EstimateCompliance_Private(sum, other, (PetscBool)flowed);
+    both = EstimateCompliance_Private(sum, leaf, (PetscBool)flowed) + soft;
+    if (both == 0) return;
+    const PetscReal k = PETSC_PI / (size[0] * both);
+    square[flowed]    = p->weight * Square_Private(term->view->friction * PetscMax(z, 0), k, q, p->slip) / k;
+  }
+  const PetscReal share = PetscSqr(size[1]) / (PetscSqr(size[0]) + PetscSqr(size[1])) * soft / both;
+  sum->eta2[leaf] += (1 - share) * square[0];
+  sum->eta2[other] += share * square[0];
+  sum->part[PART_CONTACT] += square[1];
 }
 
 PetscErrorCode EstimateSlip_Private(EstimateSum *sum)

@@ -209,6 +209,8 @@ static PetscErrorCode MarkCorner(Forest forest, PetscReal norm, PetscReal tolera
   e.num_leaves = t->num_leaves;
   OK(PetscMalloc1(t->num_leaves, &e.eta2));
   for (PetscInt l = 0; l < t->num_leaves; ++l) e.eta2[l] = t->leaf_lo[3 * l] || t->leaf_lo[3 * l + 1] ? 1e-6 : 1;
+  for (PetscInt l = 0; l < t->num_leaves; ++l) e.total += e.eta2[l];
+  e.total = PetscSqrtReal(e.total);
   OK(EstimateMark(&e, &spec, forest, marks, NULL, num));
   OK(EstimateDestroy(&e));
   return 0;
