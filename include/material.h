@@ -12,7 +12,7 @@ typedef enum { FORMULATION_AUTO, FORMULATION_DISPLACEMENT, FORMULATION_MIXED } F
 extern const char *const VolumetricNames[];                                                 /* PETSc enum name arrays */
 
 #define MATERIAL_MAX_PARAMETERS 12
-#define MATERIAL_MAX_HISTORY 7
+#define MATERIAL_MAX_HISTORY 8
 #define MATERIAL_MAX_FIBERS 4
 
 typedef struct _MaterialLaw MaterialLaw; /* a row of the table of laws */
@@ -100,6 +100,8 @@ struct _MaterialLaw {
   PetscBool                whole;       /* energy does not split into shear and volume: no volumetric law, displacement formulation alone */
   PetscBool                unsymmetric; /* A is not symmetric: the linear solver must be one for unsymmetric matrices */
   PetscInt                 num_history; /* numbers it remembers at each integration point, <= MATERIAL_MAX_HISTORY; P is then no derivative of W */
+  PetscInt                 settled; /* which of these is the volume g(J) that mixed cells take no pressure from: coarser cells, that the mesh had before, did
+                                       not see it as they flowed (src/transfer/history.c); 0: none */
   PetscErrorCode (*setup)(MaterialSpec *);
   MaterialKernel evaluate;                                    /* NULL for rigid */
   void (*initial)(const MaterialSpec *, PetscReal history[]); /* before the first step, [num_history]; NULL without history */

@@ -67,10 +67,10 @@ PetscErrorCode MaterialJ2SetUp(MaterialSpec *spec)
 
 void MaterialJ2Initial(const MaterialSpec *spec, PetscReal history[])
 {
-  static const PetscReal virgin[] = {1, 0, 0, 1, 0, 1, 0}; /* G: xx xy xz yy yz zz; alpha */
+  static const PetscReal virgin[] = {1, 0, 0, 1, 0, 1, 0, 0}; /* G: xx xy xz yy yz zz; alpha; settled volume */
 
   (void)spec;
-  for (int k = 0; k < 7; k++) history[k] = virgin[k];
+  for (int k = 0; k < 8; k++) history[k] = virgin[k];
 }
 
 /* Work: int k(alpha) dalpha, what plastic flow took; by the yield condition it is the integral of the stress power of the plastic part. */
@@ -198,7 +198,7 @@ INLINE void Step_Private(const MaterialSpec *spec, const Deformation *d, Step *t
 }
 
 /* G = Fbar^-1 be Fbar^-T where there was flow; else bit by bit what it was. F^-1 = cof^T / J. */
-INLINE void Remember_Private(const Deformation *d, const Step *t, Lanes trial[7])
+INLINE void Remember_Private(const Deformation *d, const Step *t, Lanes trial[8])
 {
   const Lanes scale = (1 + LanesExpm1((2. / 3) * d->lnJ)) / (d->J * d->J), *c = d->cof;
   Lanes       B[9];
@@ -209,6 +209,7 @@ INLINE void Remember_Private(const Deformation *d, const Step *t, Lanes trial[7]
   for (int K = 0; K < 3; K++)
     for (int J = K; J < 3; J++, k++) trial[k] = LanesSelect(t->plastic, c[K] * B[J] + c[3 + K] * B[3 + J] + c[6 + K] * B[6 + J], d->history[k]);
   trial[6] = t->alpha;
+  trial[7] = d->history[7]; /* load steps do not change it, meshes do */
 }
 
 /* a_imkl = ds_im/dl_kl - delta_mk s_il for dF = l F: the exact derivative of the step. Not symmetric by n (x) dev n^2. Of the part n (x) c, by which beta
@@ -286,6 +287,6 @@ INLINE void J2Point_Private(const MaterialSpec *spec, MaterialPart part, const D
 PetscErrorCode MaterialJ2(const MaterialSpec *spec, MaterialPart part, MaterialPoints *points)
 {
   PetscFunctionBegin;
-  PointLoop(J2Point_Private, 7, spec, part, points);
+  PointLoop(J2Point_Private, 8, spec, part, points);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

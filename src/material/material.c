@@ -15,7 +15,7 @@ const MaterialLaw MaterialLaws[] = {
      .setup = MaterialSetUpElastic, .evaluate = MaterialSaintVenantKirchhoff},
     {"linear", "linear isotropic elasticity, small kinematics", MaterialElasticParameters, .small = PETSC_TRUE, .setup = MaterialLinearSetUp,
      .evaluate = MaterialLinear},
-    {"j2", "finite elasto-plastic solid: von Mises yield, isotropic hardening", MaterialJ2Parameters, .unsymmetric = PETSC_TRUE, .num_history = 7,
+    {"j2", "finite elasto-plastic solid: von Mises yield, isotropic hardening", MaterialJ2Parameters, .unsymmetric = PETSC_TRUE, .num_history = 8, .settled = 7,
      .setup = MaterialJ2SetUp, .evaluate = MaterialJ2, .initial = MaterialJ2Initial, .plastic = MaterialJ2Plastic},
     {"rigid", "rigid body that moves as told", MaterialRigidParameters, .rigid = PETSC_TRUE, .setup = MaterialRigidSetUp},
     {NULL},

@@ -303,8 +303,8 @@ static PetscErrorCode Chunk_Private(CellKernel k, CellBatch *b, PetscInt first, 
   PetscBool    bad = PETSC_FALSE;
 
   PetscFunctionBegin;
-  PetscCheck(b->history || !k->material.law->num_history || !(b->energy || b->residual || tangent || b->trial), PETSC_COMM_SELF, PETSC_ERR_ARG_NULL,
-             "The law %s needs the history of its points", k->material.law->name);
+  PetscCheck(b->history || !k->material.law->num_history || !(b->energy || b->residual || tangent || b->trial || b->consistent), PETSC_COMM_SELF,
+             PETSC_ERR_ARG_NULL, "The law %s needs the history of its points", k->material.law->name);
   Load_Private(num, n, d, b->X + first * size, k->X);
   Load_Private(num, n, d, b->u + first * size, k->u);
   PetscCheck(CellKernelGeometry_Private(k) < 0, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONGSTATE, "A cell is inverted in the reference mesh (MechanicsFindInverted)");
@@ -316,6 +316,7 @@ static PetscErrorCode Chunk_Private(CellKernel k, CellBatch *b, PetscInt first, 
   if (b->stretch2) Stretch_Private(k, num, b->stretch2 + first);
   if (bad) b->bad = PETSC_TRUE;
   if (bad) PetscFunctionReturn(PETSC_SUCCESS);
+  if (b->history) LoadHistory_Private(k, num, b->history + first * k->num_points * k->material.law->num_history);
   if (k->mixed) CellKernelProject_Private(k);
   if (b->consistent && m) Store_Private(num, m, 1, k->incompressible ? k->moment : k->coefficient, b->consistent + first * m);
   if (b->mass && k->incompressible) StoreDiagonal_Private(num, m, k->mass, b->mass + first * m);
@@ -323,7 +324,6 @@ static PetscErrorCode Chunk_Private(CellKernel k, CellBatch *b, PetscInt first, 
     Load_Private(num, m, 1, b->pressure + first * m, k->stored);
     pressure = k->stored;
   }
-  if (b->history) LoadHistory_Private(k, num, b->history + first * k->num_points * k->material.law->num_history);
   if (fibers && (b->energy || b->residual || tangent)) LoadSlabs_Private(k, num, fibers, b->fiber + first * fibers * k->num_points, k->fiber);
   if (b->energy || b->residual || tangent || b->trial) PetscCall(Law_Private(k, tangent, b, pressure, &bad));
   if (bad) b->bad = PETSC_TRUE;

@@ -48,6 +48,14 @@ INLINE Lanes Evaluate_Private(CellKernel k, PetscInt q, const Lanes *coefficient
   return sum;
 }
 
+/* What of the volume coarser cells did not see as they flowed takes no pressure (MaterialLaw.settled). */
+static void Settle_Private(CellKernel k, Lanes *g)
+{
+  const PetscInt h = k->material.law->num_history, slab = k->slab_points;
+
+  for (PetscInt q = 0; q < k->num_points; q++) g[q] -= k->history[((q / slab) * h + k->material.law->settled) * slab + q % slab];
+}
+
 void CellKernelProject_Private(CellKernel k)
 {
   const PetscInt  m = k->num_pressure, nq = k->num_points;
@@ -55,6 +63,7 @@ void CellKernelProject_Private(CellKernel k)
   Lanes          *g       = k->measure + nq;
 
   MaterialVolumetricPoints(&k->material, nq * NUM_LANES, (PetscReal *)k->measure, (PetscReal *)g, (PetscReal *)(g + nq), (PetscReal *)(g + 2 * nq));
+  if (k->material.law->settled) Settle_Private(k, g);
   for (PetscInt i = 0; i < m * m; i++) k->mass[i] = (Lanes){0};
   for (PetscInt i = 0; i < m; i++) k->moment[i] = (Lanes){0};
   for (PetscInt q = 0; q < nq; q++) {

@@ -265,20 +265,20 @@ PetscErrorCode MechanicsPoints(Mechanics m, PetscInt cell, PetscInt np, const Pe
 
   PetscFunctionBegin;
   PetscCheck(m->cell_group[cell] >= 0, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONG, "cell %" PetscInt_FMT " is rigid: it has no stress", cell);
-  g      = &m->groups[m->cell_group[cell]];
-  X      = m->work;
-  values = X + g->n * m->dim;
+  g                        = &m->groups[m->cell_group[cell]];
+  X                        = m->work;
+  values                   = X + g->n * m->dim;
+  const PetscReal *history = g->h ? m->history.values + m->history.place[cell] : NULL;
   PetscCall(HPSpaceGatherPositions(m->space, cell, X));
   PetscCall(HPSpaceGather(m->space, cell, u, values));
   if (g->m && m->has_stored)
     pressure = m->stored.values + m->stored.place[cell];
   else if (g->m) { /* the volume alone tells the pressure, no fibres */
-    CellBatch batch = {.nc = 1, .X = X, .u = values, .consistent = consistent};
+    CellBatch batch = {.nc = 1, .X = X, .u = values, .consistent = consistent, .history = history};
     PetscCall(CellKernelEvaluate(g->kernel, &batch));
     pressure = consistent;
   }
   if (g->num_unknown) pressure = m->pressure + m->unknown_first[cell];
-  PetscCall(CellKernelPoints(g->kernel, t->leaf_root[v->cell_leaf[cell]], np, xi, X, values, pressure, g->h ? m->history.values + m->history.place[cell] : NULL,
-                             points, &bad));
+  PetscCall(CellKernelPoints(g->kernel, t->leaf_root[v->cell_leaf[cell]], np, xi, X, values, pressure, history, points, &bad));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

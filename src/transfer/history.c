@@ -2,11 +2,15 @@
    every value is admissible. Components 0-5 are a symmetric positive tensor G of determinant 1 (Cp^-1): the logarithm of such a tensor is traceless, and the
    exponential of any traceless one has determinant 1. What is interpolated is not G, as large as the flow was, but the elastic strain be = Fbar G Fbar^T that
    goes with the displacement, as small as stress is against the modulus: what a polynomial misses of G would be a stress, often beyond the yield surface, of
-   its own. Component 6 (alpha) must not fall below 0. What is still beyond the yield surface StateAdmit sees to. */
+   its own. Component 6 (alpha) must not fall below 0. What is still beyond the yield surface StateAdmit sees to.
+
+   Component 7 is the settled volume. Mixed cells see means of g(J), and what coarse ones did not see of it grew as they flowed, to many times the strain at
+   which they yield. Finer cells would see some of it at once, as pressures that nothing had built up, and flow that has to undo it. So what the old cell did
+   not see is settled: g(J) - pi/modulus, pi the pressure of the old cell, which the new one then has as well. */
 #include "transferimpl.h"
 #include <petscblaslapack.h>
 
-#define H 7
+#define H 8
 #define VALUES 13 /* at an old point: logarithms of be and of G, alpha */
 #define MOST_NODES ((MORTISE_MAX_ORDER + 1) * (MORTISE_MAX_ORDER + 1) * (MORTISE_MAX_ORDER + 1))
 #define OVERSHOOT 0.5 /* new points lie a little beyond the old ones: how far, in units of the old values' range, alpha may follow */
@@ -42,7 +46,7 @@ static PetscReal Exp_Private(PetscReal x)
 
 /* Fbar = J^(-1/3) F of the old leaf at xi; PETSC_FALSE: it is inverted there. */
 static PetscErrorCode Deformation_Private(const TransferContext *c, const OldCells *old, PetscInt leaf, const PetscReal xi[], PetscReal work[], PetscReal F[9],
-                                          PetscBool *valid)
+                                          PetscReal *J, PetscBool *valid)
 {
   const PetscInt dim = c->old_t->dim;
   PetscReal      dX[9], size;
@@ -59,6 +63,7 @@ static PetscErrorCode Deformation_Private(const TransferContext *c, const OldCel
   }
   if (dim == 2 && c->spec->model == MODEL_AXISYMMETRIC) F[8] = 1 + p.u[0] / p.X[0];
   size   = *valid ? Det3(F) : 0;
+  *J     = size;
   *valid = (PetscBool)(size > 0);
   for (PetscInt k = 0; k < 9 && *valid; ++k) F[k] /= PetscCbrtReal(size);
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -119,11 +124,11 @@ static PetscErrorCode Load_Private(const TransferContext *c, const OldCells *old
   p->lo = p->hi = from[6];
   p->valid      = PETSC_TRUE;
   for (PetscInt q = 0; q < p->num; ++q, from += H) {
-    PetscReal *value = p->value + q * VALUES, xi[3], F[9], be[6];
+    PetscReal *value = p->value + q * VALUES, xi[3], F[9], be[6], J;
     PetscBool  valid;
 
     (void)Basis1DPoint(p->basis, dim, q, xi);
-    PetscCall(Deformation_Private(c, old, leaf, xi, p->work, F, &valid));
+    PetscCall(Deformation_Private(c, old, leaf, xi, p->work, F, &J, &valid));
     p->valid = (PetscBool)(p->valid && valid);
     if (valid) Congruent_Private(F, from, be);
     PetscCall(Function_Private(valid ? be : from, Log_Private, value));
@@ -148,16 +153,32 @@ static PetscErrorCode Exponential_Private(PetscReal log[6], PetscReal out[6])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* What the old leaf does not see of its volume at xi. */
+static PetscErrorCode Settled_Private(const TransferContext *c, const OldCells *old, PetscInt leaf, const PetscReal xi[], PetscReal J, PetscReal *settled)
+{
+  const PetscInt      dim = c->old_t->dim, order = HPSpaceGetOrder(c->old_space, c->old_t->first[dim] + leaf);
+  const MaterialSpec *m = c->spec->bodies[c->old_t->leaf_body[leaf]].material;
+  PetscReal           pressure, g[3];
+
+  PetscFunctionBegin;
+  *settled = 0;
+  if (!m->mixed || !m->law->settled) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(MechanicsPressureEvaluate(dim, order, 1, xi, old->values + old->offset[leaf] + TransferNumNodal_Private(dim, order), &pressure));
+  MaterialVolumetric(m, J, g);
+  *settled = g[0] - pressure / MaterialVolumetricModulus(m);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* History at xi of the old leaf; where its deformation is inverted, from the logarithms of G. */
 static PetscErrorCode Point_Private(const TransferContext *c, const OldCells *old, OldPoints *p, const PetscReal xi[], PetscReal history[])
 {
   const PetscReal slack = OVERSHOOT * (p->hi - p->lo);
-  PetscReal       sum[VALUES], F[9], inverse[9], be[6];
+  PetscReal       sum[VALUES], F[9], inverse[9], be[6], J;
   PetscBool       valid = p->valid;
 
   PetscFunctionBegin;
   Basis1DInterpolate(p->basis, c->old_t->dim, xi, VALUES, p->value, sum);
-  if (valid) PetscCall(Deformation_Private(c, old, p->leaf, xi, p->work, F, &valid));
+  if (valid) PetscCall(Deformation_Private(c, old, p->leaf, xi, p->work, F, &J, &valid));
   PetscCall(Exponential_Private(valid ? sum : sum + 6, be));
   if (valid) {
     Inverse_Private(F, inverse);
@@ -165,6 +186,8 @@ static PetscErrorCode Point_Private(const TransferContext *c, const OldCells *ol
   } else
     PetscCall(PetscArraycpy(history, be, 6));
   history[6] = PetscMax(0, PetscMin(PetscMax(sum[12], p->lo - slack), p->hi + slack));
+  history[7] = 0;
+  if (valid) PetscCall(Settled_Private(c, old, p->leaf, xi, J, history + 7));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
