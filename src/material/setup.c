@@ -142,14 +142,19 @@ static PetscErrorCode CheckLimit_Private(MaterialSpec *spec)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* `mixed`: as told, or from nu = 0.45 up. The modulus of the pressure must not vanish then. */
+/* Plastic flow keeps the volume as rubber does, and locks cells of displacements alone (docs/theory.md, plasticity). */
+static PetscBool KeepsVolume_Private(const MaterialSpec *spec, PetscReal nu)
+{
+  return (PetscBool)(!spec->law->rigid && (spec->law->plastic || nu >= 0.45 - 1e-12));
+}
+
+/* `mixed`: as told, or where the volume is all but kept. The modulus of the pressure must not vanish then. */
 static PetscErrorCode ResolveMixed_Private(MaterialSpec *spec)
 {
   const PetscReal nu = Poisson_Private(spec);
 
   PetscFunctionBegin;
-  spec->mixed =
-      spec->formulation == FORMULATION_MIXED || (spec->formulation == FORMULATION_AUTO && !spec->law->rigid && nu >= 0.45 - 1e-12) ? PETSC_TRUE : PETSC_FALSE;
+  spec->mixed = (PetscBool)(spec->formulation == FORMULATION_MIXED || (spec->formulation == FORMULATION_AUTO && KeepsVolume_Private(spec, nu)));
   PetscCall(CheckLimit_Private(spec));
   PetscCheckInput(!spec->mixed || !spec->law->whole,
                   "material.%s.formulation: %s has no mixed form (meant for nu from 0.45 up, here %g); set formulation: displacement or take neo_hookean",

@@ -229,7 +229,8 @@ static PetscErrorCode ReadOrders_Private(Scene s, const SceneNode *orders, BodyE
   }
   for (PetscInt c = 0; c < 3 && !differ; ++c) along[c] = 0;
   PetscCheckInput(!differ || !b->spec.material->mixed,
-                  "%s: orders per direction and the mixed formulation of material %s do not go together; allowed: one order", NodeWhere(orders), b->material);
+                  "%s: orders per direction and the mixed formulation of material %s do not go together; allowed: one order, or formulation: displacement",
+                  NodeWhere(orders), b->material);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -101,7 +101,6 @@ FIGURES = {
     "ratio": -free(1 - 0.25 / 1.1, 2, 0.35, 1),
     "ratio3d": -free(0.8, 2, 0.35, 2),
     "shrink": shrink((0.5, 1, 0.98, 2), (210, 70), (0.3, 0.33)),
-    "upset": upset(math.pi, 2 * math.pi * (1 - 0.2234 * 0.15) * EDGE, 0.8, False),  # its centroid is 0.2234 radii from the edge
     "upset_strip": upset(1, EDGE, 0.85, True),
     "glue_rings": glued_rings(1, 1.5, 2, ((10, 0.3), (1, 0.3))),
     "tied_wall": -stacked((0.6, 0.5), ((1, 0.3), (3, 0.3)), 0.2),
