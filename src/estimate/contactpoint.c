@@ -159,15 +159,20 @@ static void Push_Private(const ContactTerm *term, PetscBool finite, PetscInt fac
   for (PetscInt c = 0; c < 3 && term->view->slip; ++c) T[c] += factor * q[c];
 }
 
-/* Does the part of a mortar edge hold eta? Then xi on its nonmortar edge. */
-static PetscBool OnPart_Private(const ContactSegment *s, PetscReal eta, PetscReal xi[2])
+/* How deep a place lies in a part [a, b] of an edge: the less of the ways to its ends, below 0 outside. */
+static PetscReal InPart_Private(PetscReal a, PetscReal b, PetscReal place)
+{
+  return PetscMin(place - PetscMin(a, b), PetscMax(a, b) - place);
+}
+
+/* The same of eta in the part of a mortar edge; then xi on its nonmortar edge. */
+static PetscReal OnPart_Private(const ContactSegment *s, PetscReal eta, PetscReal xi[2])
 {
   const PetscReal a = (eta - s->eta[0][0]) / (s->eta[1][0] - s->eta[0][0]);
 
-  if (!(a >= 0 && a <= 1)) return PETSC_FALSE;
   xi[0] = s->xi[0][0] + a * (s->xi[1][0] - s->xi[0][0]);
   xi[1] = 0;
-  return PETSC_TRUE;
+  return InPart_Private(s->eta[0][0], s->eta[1][0], eta);
 }
 
 /* Weights of the corners p of a triangle at eta; returns how deep it lies inside (negative: outside) in the units of eta. */
@@ -217,32 +222,34 @@ void ContactSegmentBox_Private(const ContactSegment *s, PetscReal box[4])
   }
 }
 
-/* The nonmortar facet that a place on a mortar facet is seen from, -1: none, and the place there. The first segment that holds eta, else the nearest in reach.
- */
-static PetscInt Seen_Private(const ContactTerm *term, PetscInt mortar_facet, const PetscReal eta[2], PetscReal xi[2])
+/* The nonmortar facet that a place on a mortar facet is seen from, -1: none, the place there, and how deep in what is seen from there eta lies. The first
+   segment that holds eta, else the nearest in reach. */
+static PetscInt Seen_Private(const ContactTerm *term, PetscInt mortar_facet, const PetscReal eta[2], PetscReal xi[2], PetscReal *depth)
 {
-  PetscReal least = -SLIT;
-  PetscInt  found = -1;
+  PetscInt found = -1;
 
-  for (PetscInt i = term->segment_first[mortar_facet]; i < term->segment_first[mortar_facet + 1] && least < 0; ++i) {
-    const ContactSegment *s = &term->segments[i];
-    if (term->view->mortar.dim == 2) {
-      if (OnPart_Private(s, eta[0], xi)) return s->facet;
-      continue;
-    }
-    const PetscReal *box = term->box[i];
-    if (eta[0] < box[0] || eta[1] < box[1] || eta[0] > box[2] || eta[1] > box[3]) continue;
-    const PetscReal depth = InPolygon_Private(s, eta, least, xi);
-    if (depth > least) found = s->facet;
-    least = depth;
+  *depth = term->view->mortar.dim == 2 ? 0 : -SLIT;
+  for (PetscInt i = term->segment_first[mortar_facet]; i < term->segment_first[mortar_facet + 1]; ++i) {
+    const ContactSegment *s   = &term->segments[i];
+    const PetscReal      *box = term->box ? term->box[i] : NULL;
+    if (box && (*depth >= 0 || eta[0] < box[0] || eta[1] < box[1] || eta[0] > box[2] || eta[1] > box[3])) continue;
+    PetscReal       place[2];
+    const PetscReal deep = box ? InPolygon_Private(s, eta, *depth, place) : OnPart_Private(s, eta[0], place);
+    if (!(deep > *depth || (!box && found < 0 && deep == 0))) continue;
+    *depth = deep;
+    found  = s->facet;
+    xi[0]  = place[0];
+    xi[1]  = place[1];
   }
   return found;
 }
 
-/* Does a place on a nonmortar facet of this rank face the mortar side? Segments come by ascending facets. */
-static PetscBool Faces_Private(const ContactTerm *term, PetscInt facet, const PetscReal xi[2])
+/* How deep a place on a nonmortar facet of this rank lies in what faces the mortar side; PETSC_MIN_REAL: outside. Segments come by ascending facets. */
+static PetscReal Faces_Private(const ContactTerm *term, PetscInt facet, const PetscReal xi[2])
 {
+  const PetscBool       edges = (PetscBool)(term->view->nonmortar.dim == 2);
   const ContactSegment *s;
+  PetscReal             deepest = PETSC_MIN_REAL;
   PetscInt              num, low = 0, high;
 
   ContactPairGetSegments(term->view->pair, &num, &s);
@@ -254,35 +261,61 @@ static PetscBool Faces_Private(const ContactTerm *term, PetscInt facet, const Pe
       high = middle;
   }
   for (; low < num && s[low].facet == facet; ++low) {
-    if (s[low].num == 2 && (s[low].xi[0][0] - xi[0]) * (s[low].xi[1][0] - xi[0]) <= 0) return PETSC_TRUE;
-    for (PetscInt k = 1; k + 1 < s[low].num; ++k) {
+    if (edges) deepest = PetscMax(deepest, InPart_Private(s[low].xi[0][0], s[low].xi[1][0], xi[0]));
+    for (PetscInt k = 1; k + 1 < s[low].num && !edges; ++k) {
       const PetscReal *const p[3] = {s[low].xi[0], s[low].xi[k], s[low].xi[k + 1]};
       PetscReal              weight[3];
-      if (InTriangle_Private(p, xi, weight) > -SLIT) return PETSC_TRUE;
+      deepest = PetscMax(deepest, InTriangle_Private(p, xi, weight));
     }
   }
-  return PETSC_FALSE;
+  return edges ? (deepest >= 0 ? deepest : PETSC_MIN_REAL) : deepest > -SLIT ? deepest : PETSC_MIN_REAL;
+}
+
+/* What presses at a place: of pairs whose regions end there, so that slits leave it in several, the one that it lies deepest in, the mean of those where it
+   lies alike, as on the border itself. */
+typedef struct {
+  PetscInt  pair, num; /* num: how many pairs it is of */
+  PetscReal depth, T[3];
+} Pressing;
+
+static void Take_Private(Pressing *p, PetscInt pair, PetscReal depth, const PetscReal T[3])
+{
+  const PetscReal alike = 1e-6;
+  const PetscBool same = (PetscBool)(p->num && p->pair == pair), beside = (PetscBool)(p->num && !same && PetscAbsReal(depth - p->depth) <= alike);
+
+  if (p->num && !same && !beside && depth < p->depth) return;
+  if (!same && !beside) *p = (Pressing){.pair = pair, .num = 1, .depth = depth};
+  if (beside) *p = (Pressing){.pair = pair, .num = p->num + 1, .depth = p->depth, .T = {p->T[0], p->T[1], p->T[2]}};
+  p->depth = PetscMax(p->depth, depth);
+  for (PetscInt c = 0; c < 3; ++c) p->T[c] += T[c];
 }
 
 void ContactTermsTraction_Private(const ContactTerms *terms, PetscInt facet, const PetscReal X[3], PetscReal T[3])
 {
-  const PetscBool finite = (PetscBool)(terms->kinematics == KINEMATICS_FINITE);
+  const PetscBool finite   = (PetscBool)(terms->kinematics == KINEMATICS_FINITE);
+  Pressing        pressing = {0};
 
   for (PetscInt i = 0; i < terms->num; ++i) {
     const ContactTerm *term      = &terms->terms[i];
     const PetscInt     nonmortar = term->facet_place[0][facet], mortar = term->facet_place[1][facet];
     const PetscBool    ties = (PetscBool)(term->view->spec->law == CONTACT_TIED);
-    PetscReal          xi[2], eta[2];
+    PetscReal          xi[2], eta[2], depth;
     if (nonmortar >= 0) {
+      PetscReal t[3] = {0, 0, 0};
       Locate_Private(&term->view->nonmortar, nonmortar, X, xi);
-      const PetscBool faces = Faces_Private(term, nonmortar, xi); /* round a corner, or past an end of the mortar side, nothing presses */
-      if (ties && faces) Tie_Private(term, nonmortar, xi, -1, T);
-      if (!ties && faces) Push_Private(term, finite, nonmortar, xi, -ContactStretch_Private(terms, &term->view->nonmortar, nonmortar, xi), T);
+      depth = Faces_Private(term, nonmortar, xi); /* round a corner, or past an end of the mortar side, nothing presses */
+      if (depth > PETSC_MIN_REAL && ties) Tie_Private(term, nonmortar, xi, -1, t);
+      if (depth > PETSC_MIN_REAL && !ties) Push_Private(term, finite, nonmortar, xi, -ContactStretch_Private(terms, &term->view->nonmortar, nonmortar, xi), t);
+      if (depth > PETSC_MIN_REAL) Take_Private(&pressing, term->view->spec->pair, depth, t);
     }
     if (mortar < 0) continue;
+    PetscReal t[3] = {0, 0, 0};
     Locate_Private(&term->view->mortar, mortar, X, eta);
-    const PetscInt seen = Seen_Private(term, mortar, eta, xi);
-    if (seen >= 0 && ties) Tie_Private(term, seen, xi, 1, T);
-    if (seen >= 0 && !ties) Push_Private(term, finite, seen, xi, ContactStretch_Private(terms, &term->view->mortar, mortar, eta), T);
+    const PetscInt seen = Seen_Private(term, mortar, eta, xi, &depth);
+    if (seen < 0) continue;
+    if (ties) Tie_Private(term, seen, xi, 1, t);
+    if (!ties) Push_Private(term, finite, seen, xi, ContactStretch_Private(terms, &term->view->mortar, mortar, eta), t);
+    Take_Private(&pressing, term->view->spec->pair, depth, t);
   }
+  for (PetscInt c = 0; c < 3 && pressing.num; ++c) T[c] += pressing.T[c] / pressing.num;
 }

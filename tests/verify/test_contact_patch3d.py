@@ -340,3 +340,11 @@ def test_rim_held_across_the_face(run):
     assert result.returncode == 0, result
     assert result.summary["newton_iterations"] <= 5 and result.summary["step_cuts"] == 0
     assert 1e-3 < result.summary["contact"]["upper_on_lower"]["force"][2] < 3e-3
+
+
+@pytest.mark.parametrize("d", [0, 0.018])
+def test_border_of_two_pairs(run, d):
+    """Two bricks under one, all under the same pressure, the joint below at a point (at 0.018 beside it, in the slit) where the upper one's stress is looked at: what
+    presses there is counted once. It was twice, and 12 % were told of an exact solution."""
+    result = run("tests/verify/scenes/bricks.yml", "-mesh_parameter_d", d, "-output_fields", "false")
+    assert result.solved and result.summary["energy"] == pytest.approx(0.192, rel=1e-10) and result.summary["estimated_error"] < 1e-6, result
