@@ -57,7 +57,7 @@ def execute(program, scene_file, options, directory, seconds):
     limited = ["sh", "-c", f'ulimit -t {int(seconds) + 1}; exec "$0" "$@"', program, str(scene_file), "-output_directory", directory, "-output_fields", "false", *options]
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     try:
-        process = subprocess.run(limited, capture_output=True, text=True, timeout=WALL * seconds, env={**os.environ, "TMPDIR": directory, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"})
+        process = subprocess.run(limited, capture_output=True, text=True, timeout=WALL * seconds, env={**os.environ, "TMPDIR": directory, "OMPI_MCA_mpi_yield_when_idle": "0", "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"})
         code, said = process.returncode, process.stderr
     except subprocess.TimeoutExpired:
         code, said = None, ""

@@ -103,8 +103,9 @@ def execute(command, timeout=600, env=None):
     take it away from each other. mpiexec need not wait for processes that are at their end too (a second, whenever the status is not 0). The program by itself is
     a copy of one that is loaded: half of the processor time of a small run."""
     with tempfile.TemporaryDirectory(prefix="m") as own:
-        more = {"TMPDIR": own, "OMPI_MCA_odls_base_sigkill_timeout": "0", **(env or {})}
-        loaded = server() if command[0] == str(PROGRAM) and not env else None
+        alone = command[0] == str(PROGRAM)  # it waits for nobody, and need not give way where it asks whether to
+        more = {"TMPDIR": own, "OMPI_MCA_odls_base_sigkill_timeout": "0", **({"OMPI_MCA_mpi_yield_when_idle": "0"} if alone else {}), **(env or {})}
+        loaded = server() if alone and not env else None
         process, late = (Copy(loaded, command[1:], own, more) if loaded else Start(command, more)), False
         try:
             stdout, stderr = process.communicate(timeout)
