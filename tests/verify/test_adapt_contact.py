@@ -145,7 +145,7 @@ def test_hp_with_contact_faces_of_full_order(run):
 
 
 # An overlap so shallow that no weighted gap of the first mesh is negative: (scene, axis, tolerance, force of order 3 on the same mesh, adapted alike)
-SHALLOW = {2: ("inputs/hertz2d.yml", "y", 0.05, 8.6902e-05), 3: ("inputs/hertz3d.yml", "z", 0.11, 1.8814e-06)}
+SHALLOW = {2: ("inputs/hertz2d.yml", "y", 0.05, 8.6902e-05), 3: ("inputs/hertz3d.yml", "z", 0.1, 1.8814e-06)}
 
 
 @pytest.mark.parametrize("dim", [2, 3])
