@@ -220,8 +220,9 @@ void           InterfaceLeaveOverlap(Interface, PetscReal share);
 PetscBool InterfaceIsSymmetric(Interface);
 /* *grown: there is more to write than has had room so far; it has from the next matrix on. Not collective. */
 PetscErrorCode InterfaceGrow(Interface, PetscBool *grown);
-/* Entries in the rows first_row .. first_row + num_rows of this rank: counted, or without counters written as explicit zeros. */
-PetscErrorCode InterfacePattern(Interface, Mat, PetscInt first_row, PetscInt num_rows, PetscInt diagonal[], PetscInt other[]);
+/* Cliques of rows of the matrix that contact couples, each row with all of its clique: those of the facets that this rank evaluates and of its multipliers. As
+   one array, each clique its number of rows, then these in ascending order; the caller frees it. Not collective. */
+PetscErrorCode InterfaceCliques(Interface, PetscInt *num, PetscInt **cliques);
 /* Has it active constraints whose forces hold lines of the mortar side (ContactFacet.push)? Collective. */
 PetscErrorCode InterfaceHoldsLines(Interface, PetscBool *holds);
 /* Hessians and columns, added; then, after the matrix is flushed, rows, which replace what is there. Collective. */

@@ -158,50 +158,35 @@ PetscInt ContactPatternDofs_Private(const Contact *c, PetscInt facet, PetscInt d
   return num;
 }
 
-/* Upper bound of the contact entries, counted; without counters they are written as explicit zeros. */
-PetscErrorCode InterfacePattern(Interface p, Mat matrix, PetscInt first_row, PetscInt num_rows, PetscInt diagonal[], PetscInt other[])
+/* A clique of `num` rows, which the array ends with, in ascending order. */
+static PetscErrorCode Close_Private(PetscInt num, PetscInt *total, PetscInt array[])
 {
-  PetscInt  *dofs, most = 0;
-  PetscReal *zeros;
+  PetscFunctionBegin;
+  if (!num) PetscFunctionReturn(PETSC_SUCCESS);
+  array[*total] = num;
+  PetscCall(PetscSortInt(num, array + *total + 1)); /* new entries then move those behind them less */
+  *total += num + 1;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode InterfaceCliques(Interface p, PetscInt *num, PetscInt **cliques)
+{
+  PetscInt size = 0;
 
   PetscFunctionBegin;
-  for (PetscInt i = 0; i < p->num_contacts; ++i) {
-    for (PetscInt e = 0; e < p->contacts[i].side[0].num_facets; ++e) most = PetscMax(most, ContactPatternSize_Private(&p->contacts[i], e));
-  }
-  PetscCall(PetscMalloc1(most, &dofs));
+  *num     = 0;
+  *cliques = NULL;
   for (PetscInt i = 0; i < p->num_contacts; ++i) {
     const Contact *c = &p->contacts[i];
     for (PetscInt e = 0; e < c->side[0].num_facets && c->pattern_offset; ++e) {
-      const PetscInt num = ContactPatternDofs_Private(c, e, dofs);
-      if (!diagonal) {
-        PetscCall(PetscSortInt(num, dofs)); /* new entries then move those behind them less */
-        PetscCall(PetscCalloc1(num * num, &zeros));
-        PetscCall(MatSetValues(matrix, num, dofs, num, dofs, zeros, ADD_VALUES));
-        PetscCall(PetscFree(zeros));
-        continue;
-      }
-      for (PetscInt a = 0; a < num; ++a) {
-        const PetscInt row = dofs[a] - first_row;
-        if (row < 0 || row >= num_rows) continue;
-        for (PetscInt b = 0; b < num; ++b) {
-          if (dofs[b] >= first_row && dofs[b] < first_row + num_rows)
-            ++diagonal[row];
-          else
-            ++other[row];
-        }
-      }
+      PetscCall(ArrayGrow(*num + 1 + ContactPatternSize_Private(c, e), sizeof(PetscInt), &size, cliques));
+      PetscCall(Close_Private(ContactPatternDofs_Private(c, e, *cliques + *num + 1), num, *cliques));
     }
-  }
-  PetscCall(PetscFree(dofs));
-  for (PetscInt i = 0; i < p->num_contacts; ++i) {
-    const Contact *c = &p->contacts[i];
     for (PetscInt j = 0; j < c->side[0].num_nodes; ++j) {
-      for (PetscInt k = 0; k < c->num * c->num && c->zlocal[j] >= 0; ++k) {
-        if (diagonal)
-          ++diagonal[c->zdof[j] + k / c->num - first_row];
-        else
-          PetscCall(MatSetValue(matrix, c->zdof[j] + k / c->num, c->zdof[j] + k % c->num, 0.0, ADD_VALUES));
-      }
+      if (c->zlocal[j] < 0) continue;
+      PetscCall(ArrayGrow(*num + 1 + c->num, sizeof(PetscInt), &size, cliques));
+      for (PetscInt k = 0; k < c->num; ++k) (*cliques)[*num + 1 + k] = c->zdof[j] + k;
+      PetscCall(Close_Private(c->num, num, *cliques));
     }
   }
   PetscFunctionReturn(PETSC_SUCCESS);

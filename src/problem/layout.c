@@ -127,18 +127,43 @@ static PetscErrorCode BulkPattern_Private(Problem p, PetscInt diagonal[], PetscI
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Entries of cliques in the rows of this rank: an upper bound of their numbers or, without counters, explicit zeros. */
+static PetscErrorCode CliquePattern_Private(Problem p, PetscInt num, const PetscInt cliques[], PetscInt diagonal[], PetscInt other[])
+{
+  PetscReal *zeros;
+  PetscInt   most = 0;
+
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < num; i += cliques[i] + 1) most = PetscMax(most, cliques[i]);
+  PetscCall(PetscCalloc1(most * most, &zeros));
+  for (PetscInt i = 0; i < num; i += cliques[i] + 1) {
+    const PetscInt *rows = cliques + i + 1, n = cliques[i];
+    PetscInt        from = 0, mine = 0;
+    while (from < n && rows[from] < p->first_row) ++from;
+    while (from + mine < n && rows[from + mine] < p->first_row + p->num_rows) ++mine;
+    if (!diagonal) PetscCall(MatSetValues(p->matrix, mine, rows + from, n, rows, zeros, ADD_VALUES));
+    for (PetscInt a = from; a < from + mine && diagonal; ++a) {
+      diagonal[rows[a] - p->first_row] += mine;
+      other[rows[a] - p->first_row] += n - mine;
+    }
+  }
+  PetscCall(PetscFree(zeros));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode ProblemMatrix_Private(Problem p)
 {
   const PetscInt rows = p->num_rows;
-  PetscInt      *diagonal, *other;
+  PetscInt      *diagonal, *other, *cliques, num;
 
   PetscFunctionBegin;
   PetscCall(StageBegin(STAGE_SETUP));
+  PetscCall(ProblemCliques_Private(p, &num, &cliques));
   PetscCall(MatDestroy(&p->matrix));
   PetscCall(PetscCalloc2(rows, &diagonal, rows, &other));
   PetscCall(BulkPattern_Private(p, diagonal, other));
   PetscCall(PressurePattern_Private(p, diagonal, other));
-  PetscCall(InterfacePattern(p->interface, NULL, p->first_row, p->num_rows, diagonal, other));
+  PetscCall(CliquePattern_Private(p, num, cliques, diagonal, other));
   PetscCall(ScalarsPattern_Private(p, diagonal, other));
   for (PetscInt i = 0; i < rows; ++i) {
     diagonal[i] = PetscMin(diagonal[i] + 1, rows);
@@ -148,14 +173,15 @@ PetscErrorCode ProblemMatrix_Private(Problem p)
   PetscCall(MatSetSizes(p->matrix, rows, rows, PETSC_DETERMINE, PETSC_DETERMINE));
   PetscCall(MatSetType(p->matrix, MATAIJ));
   PetscCall(MatXAIJSetPreallocation(p->matrix, 1, diagonal, other, NULL, NULL));
-  /* Contact across ranks may reach rows whose owner could not foresee it. */
+  /* What was not foreseen after all would cost time, not the run. */
   PetscCall(MatSetOption(p->matrix, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_FALSE));
   PetscCall(PetscFree2(diagonal, other));
   PetscCall(BulkPattern_Private(p, NULL, NULL));
   PetscCall(PressurePattern_Private(p, NULL, NULL));
-  PetscCall(InterfacePattern(p->interface, p->matrix, p->first_row, p->num_rows, NULL, NULL));
+  PetscCall(CliquePattern_Private(p, num, cliques, NULL, NULL));
   PetscCall(ScalarsPattern_Private(p, NULL, NULL));
   PetscCall(MatAssemble(p->matrix, MAT_FINAL_ASSEMBLY));
+  PetscCall(PetscFree(cliques));
   PetscCall(PetscFree2(p->scatter_first, p->scatter));
   PetscCall(StageEnd(STAGE_SETUP));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -122,6 +122,8 @@ PetscErrorCode ProblemRows_Private(Problem);
 PetscErrorCode ProblemToGlobal_Private(Problem, PetscReal array[]);
 PetscErrorCode ProblemReduce_Private(Problem, Vec r, Vec rhs);
 PetscErrorCode ProblemMatrix_Private(Problem);
+/* clique.c: cliques of rows, of any rank's contact or cells with hanging nodes, that have rows of this rank; freed by the caller. Collective. */
+PetscErrorCode ProblemCliques_Private(Problem, PetscInt *num, PetscInt **cliques);
 /* increment (local array) = free dofs of dx + share of the prescribed motion still to come. */
 PetscErrorCode ProblemIncrement_Private(Problem, Vec dx, PetscReal share);
 /* tangent.c: the system at hand; the matrix with room for all of contact, zero; a cell's matrix into it (MatrixSink). */
