@@ -512,3 +512,5 @@ PetscErrorCode SlipChange_Private(Interface, Contact *, PetscReal change[]);
 /* Rows of the matrix of everything in the pattern of one facet, dofs[ContactPatternSize_Private]; returns their number. */
 PetscInt ContactPatternDofs_Private(const Contact *, PetscInt facet, PetscInt dofs[]);
 PetscInt ContactPatternSize_Private(const Contact *, PetscInt facet);
+/* Is the nonmortar node in the pattern of the facet? One that carries weight to a node need not have evaluated a row of it. */
+PetscBool ContactPatternHas_Private(const Contact *, PetscInt facet, PetscInt node);

@@ -134,6 +134,12 @@ PetscInt ContactPatternSize_Private(const Contact *c, PetscInt facet)
   return (c->side[0].dim + c->num) * num + (num ? c->num_q : 0);
 }
 
+PetscBool ContactPatternHas_Private(const Contact *c, PetscInt facet, PetscInt node)
+{
+  if (!c->pattern_offset) return PETSC_FALSE;
+  return Has_Private(c->pattern + c->pattern_offset[facet], c->pattern_offset[facet + 1] - c->pattern_offset[facet], node);
+}
+
 /* Is the nonmortar node one of the facet's multipliers? In two dimensions its outer neighbours stand in the pattern too. */
 static PetscBool CarriesRow_Private(const Surface *s, PetscInt facet, PetscInt node)
 {

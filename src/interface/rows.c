@@ -63,7 +63,8 @@ static PetscErrorCode Gradient_Private(Interface p, const Contact *c, PetscInt j
   dofs   = p->work.index;
   values = p->work.value;
   *num   = 0;
-  for (PetscInt k = s->node_first[j]; k < s->node_first[j + 1] && c->near[j]; ++k) *num += ContactPatternDofs_Private(c, s->node_facet[k], dofs + *num);
+  for (PetscInt k = s->node_first[j]; k < s->node_first[j + 1] && c->near[j]; ++k)
+    if (ContactPatternHas_Private(c, s->node_facet[k], j)) *num += ContactPatternDofs_Private(c, s->node_facet[k], dofs + *num);
   for (PetscInt k = 0; k < c->num; ++k) dofs[(*num)++] = c->zdof[j] + k;
   PetscCall(PetscSortRemoveDupsInt(num, dofs));
   PetscCall(PetscArrayzero(values, *num));

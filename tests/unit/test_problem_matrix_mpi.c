@@ -35,10 +35,11 @@ static PetscBool Bears(Problem problem)
 
 static void Contact(void **unused)
 {
-  for (PetscInt order = 1; order <= 2; ++order) {
+  for (PetscInt k = 0; k < 3; ++k) {
     Patch p;
-    PatchScene(&p, order, KINEMATICS_FINITE, PETSC_FALSE, "-0.1");
-    p.forest = PatchForest(3, 4);
+    PatchScene(&p, k ? 2 : 1, KINEMATICS_FINITE, (PetscBool)(k == 2), "-0.1");
+    p.contact.full = (PetscBool)(k == 2);
+    p.forest       = PatchForest(3, 4);
     PatchRefine(&p.forest, 2);
     PatchStart(&p);
     PatchSolve(p.problem, &p.state);
