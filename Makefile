@@ -59,6 +59,8 @@ else
   OPT := -O3 -g $(if $(PORTABLE),,-march=native)
 endif
 CFLAGS   := -std=gnu11 $(OPT) -Wall -Wextra -Wshadow -Wstrict-prototypes -Wno-unused-parameter -Wno-maybe-uninitialized -Wno-psabi -Wno-format-truncation -Werror -fno-math-errno -MMD -MP
+# Unit programs call the library, which keeps its optimisation: their own code runs once, and takes half as long to compile.
+UNIT_CFLAGS = $(patsubst -O3,-O1,$(CFLAGS))
 FOLDERS  := $(foreach m,$(MODULES),src/$(m) $(patsubst %/,%,$(wildcard src/$(m)/*/)))
 CPPFLAGS := -Iinclude -I$(BUILD) $(addprefix -I,$(FOLDERS)) $(PETSC_CFLAGS) $(HDF5_CFLAGS) $(if $(SMUMPS),-DMORTISE_SMUMPS)
 LDLIBS   := -Wl,--no-as-needed -lopenblas $(LOAD_FIRST) -Wl,--as-needed $(PETSC_LIBS) -lmetis -ldmumps $(SMUMPS) -lmumps_common $(HDF5_LIBS) -lmuparser -lcjson -lyaml -lm
@@ -105,7 +107,7 @@ GOLD = $(eval GOLD := $(shell echo 'int main(void) { return 0; }' | $(CC) -fuse-
 $(BUILD)/unit/%: tests/unit/%.c $(LIBRARY)
 	@mkdir -p $(@D)
 	@echo "  CC   $<"
-	$(Q)$(CC) $(CFLAGS) $(CPPFLAGS) -include stdarg.h -include setjmp.h -o $@ $< $(LIBRARY) $(GOLD) -lcmocka $(LDLIBS)
+	$(Q)$(CC) $(UNIT_CFLAGS) $(CPPFLAGS) -include stdarg.h -include setjmp.h -o $@ $< $(LIBRARY) $(GOLD) -lcmocka $(LDLIBS)
 
 $(BUILD)/bench/%: tests/bench/%.c $(LIBRARY)
 	@mkdir -p $(@D)

@@ -289,7 +289,7 @@ static inline void LatticeSquare(LatticeSurface *l, const LatticeCells *c, void 
   l->hang   = calloc((size_t)b.num + 1, sizeof(PetscInt));
   l->master = calloc((size_t)rows + 1, sizeof(PetscInt));
   l->weight = calloc((size_t)rows + 1, sizeof(PetscReal));
-  l->X      = calloc((size_t)(3 * b.num), sizeof(PetscReal));
+  l->X      = calloc(3 * (size_t)b.num, sizeof(PetscReal));
   for (PetscInt n = 0; n < b.num; n++) {
     if (b.node[n].num == 0) map((PetscReal[2]){b.node[n].at[0] / (PetscReal)c->side, b.node[n].at[1] / (PetscReal)c->side}, l->X + 3 * n);
     l->hang[n + 1] = l->hang[n] + b.node[n].num;
