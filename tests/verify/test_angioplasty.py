@@ -21,7 +21,7 @@ SUBDIVIDED = (*LINEAR2, "-contact_inside_subdivide", 1, "-contact_outside_subdiv
 EXCHANGED = ("-contact_inside_nonmortar", "sleeve_bore", "-contact_inside_mortar", "balloon_skin",
              "-contact_outside_nonmortar", "sleeve_skin", "-contact_outside_mortar", "artery_bore", "-contact_inside_roles", "given", "-contact_outside_roles", "given")
 FINE1 = (*LINEAR1, "-mesh_refine", 1)
-ADAPTIVE1, ADAPTIVE2 = (*FINE1, "-adapt_tolerance", 0.1), ("-adapt_tolerance", 0.003)
+ADAPTIVE1, ADAPTIVE2 = (*FINE1, "-adapt_tolerance", 0.1), ("-adapt_tolerance", 0.0012)
 POLYGONS2, FINER_POLYGONS2 = ((*LINEAR2, "-adapt_tolerance", tolerance) for tolerance in (0.05, 0.02))
 RING = ("-mesh_parameter_sectors", 4)
 LARGE = ("-load_step", 0.2)
@@ -101,7 +101,7 @@ def test_o70_steps_four_times_larger(run):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("options", [ADAPTIVE1, ADAPTIVE2, ("-adapt_tolerance", 0.005), FINER_POLYGONS2], ids=["order_1", "order_2", "order_2_after_flow", "order_2_linear_faces"])
+@pytest.mark.parametrize("options", [ADAPTIVE1, ADAPTIVE2, ("-adapt_tolerance", 0.0005), FINER_POLYGONS2], ids=["order_1", "order_2", "order_2_after_flow", "order_2_linear_faces"])
 def test_o70_adaptive_steps_four_times_larger(run, options):
     result = solve(run, *options, *LARGE)
     accurate(result, 0.04, rms=0.009)
