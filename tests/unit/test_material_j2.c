@@ -10,7 +10,7 @@
 #include "near.h"
 
 #define OK(call) assert_int_equal(call, 0)
-enum { H = 7 };
+enum { H = 8 };
 
 typedef struct {
   MaterialSpec spec;
