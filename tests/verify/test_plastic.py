@@ -152,12 +152,12 @@ def test_o33_linear(run):
 
 @pytest.mark.slow
 def test_o33_adaptive(run):
-    """98 cells of orders 2 and 3 where 648 uniform ones of order 2 give the same forces."""
+    """98 cells of orders 2 and 3 where 1152 uniform ones of order 2 give the same forces."""
     result = necking(run, 7, *ADAPTIVE)
     check_necking(result, SATURATION, 7)
     check_loss(result)
     assert result.summary["cells"] <= 100 and result.summary["dofs"] < 2000
-    uniform = necking(run, 6, "-mesh_parameter_n", 18, "-mesh_parameter_grade", 1)
+    uniform = necking(run, 6, "-mesh_parameter_n", 24, "-mesh_parameter_grade", 1)
     close(at(result, 6)[0], at(uniform, 6)[0], 1e-3)
 
 
