@@ -109,6 +109,10 @@ struct _MaterialLaw {
   void (*plastic)(const MaterialSpec *, const PetscReal history[], PetscReal *strain, PetscReal *work);
 };
 
+/* Secant over initial shear modulus where the material has flowed by plastic strain alpha with plastic work w (MaterialLaw.plastic), by Hencky's theory of
+   deformation (docs/theory.md, error estimation): 1/(1 + 3 mu alpha^2/w), 1 without flow, about 0 where it is far beyond the strain at yield. */
+PetscReal MaterialSecant(const MaterialSpec *, PetscReal strain, PetscReal work);
+
 /* Does the yield stress fall somewhere with plastic strain? Zones of flow then shrink to the width of a cell: results depend on the mesh. */
 PetscBool MaterialSoftens(const MaterialSpec *);
 

@@ -271,8 +271,8 @@ static PetscReal Faces_Private(const ContactTerm *term, PetscInt facet, const Pe
   return edges ? (deepest >= 0 ? deepest : PETSC_MIN_REAL) : deepest > -SLIT ? deepest : PETSC_MIN_REAL;
 }
 
-/* What presses at a place: of pairs whose regions end there, so that slits leave it in several, the one that it lies deepest in, the mean of those where it
-   lies alike, as on the border itself. */
+/* What presses at a place: of pairs that do and whose regions end there, so that slits leave it in several, the one that it lies deepest in, the mean of those
+   where it lies alike, as on the border itself. A pair that is open there may see it from farther off. */
 typedef struct {
   PetscInt  pair, num; /* num: how many pairs it is of */
   PetscReal depth, T[3];
@@ -281,11 +281,12 @@ typedef struct {
 static void Take_Private(Pressing *p, PetscInt pair, PetscReal depth, const PetscReal T[3])
 {
   const PetscReal alike = 1e-6;
-  const PetscBool same = (PetscBool)(p->num && p->pair == pair), beside = (PetscBool)(p->num && !same && PetscAbsReal(depth - p->depth) <= alike);
+  const PetscBool other = (PetscBool)(!p->num || p->pair != pair);
 
-  if (p->num && !same && !beside && depth < p->depth) return;
-  if (!same && !beside) *p = (Pressing){.pair = pair, .num = 1, .depth = depth};
-  if (beside) *p = (Pressing){.pair = pair, .num = p->num + 1, .depth = p->depth, .T = {p->T[0], p->T[1], p->T[2]}};
+  if (Dot3(T, T) == 0 || (p->num && other && depth < p->depth - alike)) return;
+  if (!p->num || (other && depth > p->depth + alike)) *p = (Pressing){.depth = depth};
+  if (other) ++p->num;
+  p->pair  = pair;
   p->depth = PetscMax(p->depth, depth);
   for (PetscInt c = 0; c < 3; ++c) p->T[c] += T[c];
 }

@@ -45,7 +45,7 @@ PetscErrorCode EstimateFlow_Private(EstimateSum *sum)
     if (!m->law->plastic) continue;
     PetscCall(MechanicsHistoryRange(sum->mechanics, c, &first, &num));
     Mean_Private(m, num, history + first, &strain, &work);
-    if (work > 0) sum->left[leaf] = PetscSqr(1 / (1 + 3 * m->mu * strain * strain / work));
+    sum->left[leaf] = PetscSqr(MaterialSecant(m, strain, work));
   }
   PetscCall(PetscFree(history));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum->left, (PetscMPIInt)num_leaves, MPIU_REAL, MPI_MIN, ForestComm(HPSpaceGetForest(sum->space))));

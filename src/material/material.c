@@ -21,6 +21,11 @@ const MaterialLaw MaterialLaws[] = {
     {NULL},
 };
 
+PetscReal MaterialSecant(const MaterialSpec *spec, PetscReal strain, PetscReal work)
+{
+  return work > 0 ? 1 / (1 + 3 * spec->mu * strain * strain / work) : 1;
+}
+
 const MaterialLaw *MaterialLawFind(const char *name)
 {
   for (const MaterialLaw *law = MaterialLaws; law->name; law++) {

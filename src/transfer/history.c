@@ -6,7 +6,8 @@
 
    Component 7 is the settled volume. Mixed cells see means of g(J), and what coarse ones did not see of it grew as they flowed, to many times the strain at
    which they yield. Finer cells would see some of it at once, as pressures that nothing had built up, and flow that has to undo it. So what the old cell did
-   not see is settled: g(J) - pi/modulus, pi the pressure of the old cell, which the new one then has as well. */
+   not see, g(J) - pi/modulus with its pressure pi, is settled in the share that flow has in the strain, 1 - MaterialSecant: all of it after much flow, where
+   the new cell then has the old one's pressure, and nothing where material is elastic, whose state depends on no mesh before. */
 #include "transferimpl.h"
 #include <petscblaslapack.h>
 
@@ -153,19 +154,19 @@ static PetscErrorCode Exponential_Private(PetscReal log[6], PetscReal out[6])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* What the old leaf does not see of its volume at xi. */
-static PetscErrorCode Settled_Private(const TransferContext *c, const OldCells *old, PetscInt leaf, const PetscReal xi[], PetscReal J, PetscReal *settled)
+/* history[7] at xi of the old leaf, where history[0..6] is known. */
+static PetscErrorCode Settle_Private(const TransferContext *c, const OldCells *old, PetscInt leaf, const PetscReal xi[], PetscReal J, PetscReal history[])
 {
   const PetscInt      dim = c->old_t->dim, order = HPSpaceGetOrder(c->old_space, c->old_t->first[dim] + leaf);
   const MaterialSpec *m = c->spec->bodies[c->old_t->leaf_body[leaf]].material;
-  PetscReal           pressure, g[3];
+  PetscReal           pressure, g[3], strain, work;
 
   PetscFunctionBegin;
-  *settled = 0;
   if (!m->mixed || !m->law->settled) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(MechanicsPressureEvaluate(dim, order, 1, xi, old->values + old->offset[leaf] + TransferNumNodal_Private(dim, order), &pressure));
   MaterialVolumetric(m, J, g);
-  *settled = g[0] - pressure / MaterialVolumetricModulus(m);
+  m->law->plastic(m, history, &strain, &work);
+  history[7] = (1 - MaterialSecant(m, strain, work)) * (g[0] - pressure / MaterialVolumetricModulus(m));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -187,7 +188,7 @@ static PetscErrorCode Point_Private(const TransferContext *c, const OldCells *ol
     PetscCall(PetscArraycpy(history, be, 6));
   history[6] = PetscMax(0, PetscMin(PetscMax(sum[12], p->lo - slack), p->hi + slack));
   history[7] = 0;
-  if (valid) PetscCall(Settled_Private(c, old, p->leaf, xi, J, history + 7));
+  if (valid) PetscCall(Settle_Private(c, old, p->leaf, xi, J, history));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
