@@ -176,6 +176,12 @@ PetscBool ProblemGetSymmetric(Problem);
 PetscBool ProblemIsSymmetric(Problem);
 /* Would it be, if this material had a symmetric tangent? */
 PetscBool ProblemIsSymmetricBut(Problem, const MaterialSpec *);
+/* The symmetric part of dR/dx at a solution x, without friction; none of its eigenvalues is larger than the real parts of all of dR/dx. Into the problem's
+   matrix, with shift times the largest entry of each row of displacements on its diagonal. *is_there: not where a constraint holds the rim of a mortar side.
+   Collective. */
+PetscErrorCode ProblemSymmetricPart(Problem, Vec x, const PetscReal pressure[], PetscReal shift, PetscBool *is_there);
+/* The largest entry of each row of displacements of its matrix A, 0 for all others. Collective. */
+PetscErrorCode ProblemRowScale(Problem, Mat A, Vec scale);
 /* rhs = -(r + lift), condensed like the last tangent, multiplier rows in its form; r of the problem, lift and rhs of the matrix. */
 PetscErrorCode ProblemRightSide(Problem, Vec r, Vec lift, Vec rhs);
 /* Active-set passes against the last tangent: given the solution dx of tangent . dx = -rhs, decide anew which constraints are active, rewrite their rows in the

@@ -53,17 +53,24 @@ static PetscErrorCode Leave_Private(Path *p, PetscReal *fall, PetscBool *neutral
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Without an energy, as with follower pressures, inertia alone tells; of the sign of an eigenvalue that is round-off, as of a body that is free to slide or
-   turn, it tells nothing. */
-static PetscErrorCode Neutral_Private(Path *p)
+/* In how many directions is it unstable, where the factors at hand do not tell: of a tangent that is not symmetric, or without an energy to fall. Where the
+   sign of the determinant is all there is, with friction, an eigenvalue that is round-off, as of a body that is free to turn, makes it nothing. */
+static PetscErrorCode Count_Private(Path *p)
 {
+  Level    *l = p->level;
   PetscReal stiffness;
   PetscBool known;
+  PetscInt  num;
 
   PetscFunctionBegin;
-  if (p->unstable_now > 1) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SolverLowestMode(p->level->solver, &p->level->state, &stiffness, NULL, &known));
-  if (known && stiffness == 0) p->unstable_now = 0;
+  PetscCall(SolverCountUnstable(l->solver, &l->state, &num));
+  if (num < 0 && p->unstable_now != 1) PetscFunctionReturn(PETSC_SUCCESS);
+  if (num >= 0)
+    p->unstable_now = num;
+  else {
+    PetscCall(SolverLowestMode(l->solver, &l->state, &stiffness, NULL, &known));
+    if (known && stiffness == 0) p->unstable_now = 0;
+  }
   PetscCall(PathRefresh(p));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -79,7 +86,7 @@ PetscErrorCode PathStabilise(Path *p, PetscBool *changed)
 
   PetscFunctionBegin;
   *changed = PETSC_FALSE;
-  if (p->unstable_now && !PathCanDescend(p, NULL)) PetscCall(Neutral_Private(p));
+  if (!SolverIsSymmetric(l->solver) || (p->unstable_now && !PathCanDescend(p, NULL))) PetscCall(Count_Private(p));
   if (!p->unstable_now || !p->data->load.stable || !PathCanDescend(p, NULL)) PetscFunctionReturn(PETSC_SUCCESS);
   directions = p->unstable_now;
   PetscCall(StateCreate(l->problem, &unstable));

@@ -104,6 +104,47 @@ PetscErrorCode ProblemTangent(Problem p, Vec x, const PetscReal pressure[], Vec 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode ProblemRowScale(Problem p, Mat A, Vec scale)
+{
+  PetscReal *array;
+  PetscInt   num;
+
+  PetscFunctionBegin;
+  PetscCall(MatGetRowMaxAbs(A, scale, NULL));
+  PetscCall(VecGetLocalSize(scale, &num));
+  PetscCall(VecGetArray(scale, &array));
+  for (PetscInt i = p->num_u - p->num_inner; i < num; ++i) array[i] = 0;
+  PetscCall(VecRestoreArray(scale, &array));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ProblemSymmetricPart(Problem p, Vec x, const PetscReal pressure[], PetscReal shift, PetscBool *is_there)
+{
+  const PetscBool plain = p->form.symmetric;
+  PetscBool       bad;
+  Mat             transpose;
+  Vec             diagonal;
+
+  PetscFunctionBegin;
+  p->form.symmetric = PETSC_TRUE;
+  PetscCall(ProblemTangent(p, x, pressure, NULL, &bad));
+  p->form.symmetric = plain;
+  *is_there         = (PetscBool)(!bad && p->symmetric);
+  if (!*is_there) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!ProblemIsSymmetric(p)) {
+    PetscCall(MatTranspose(p->matrix, MAT_INITIAL_MATRIX, &transpose));
+    PetscCall(MatAXPY(p->matrix, 1, transpose, SAME_NONZERO_PATTERN)); /* rows and columns of the multipliers have one pattern, too */
+    PetscCall(MatScale(p->matrix, 0.5));
+    PetscCall(MatDestroy(&transpose));
+  }
+  PetscCall(ProblemCreateRightSide(p, &diagonal));
+  PetscCall(ProblemRowScale(p, p->matrix, diagonal));
+  PetscCall(VecScale(diagonal, shift));
+  PetscCall(MatDiagonalSet(p->matrix, diagonal, ADD_VALUES));
+  PetscCall(VecDestroy(&diagonal));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode ProblemSwitchActiveSet(Problem p, Vec dx, PetscBool single, Vec rhs, PetscInt *disagree)
 {
   const InterfaceSystem system = ProblemSystem_Private(p);

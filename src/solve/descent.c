@@ -21,33 +21,6 @@ PetscBool SolverHasDescent(Solver s)
   return (PetscBool)(!s->saddle && ProblemHasEnergy(s->problem));
 }
 
-/* Options of the factors before they are made: all pivots are counted (inertia.c), more room. Asked for afterwards, they are none that nothing used. */
-static PetscErrorCode FactorOption_Private(const char *name, const char *value)
-{
-  PetscBool set;
-
-  PetscFunctionBegin;
-  PetscCall(PetscOptionsHasName(NULL, NULL, name, &set));
-  if (!set) PetscCall(PetscOptionsSetValue(NULL, name, value));
-  PetscCall(PetscOptionsHasName(NULL, NULL, name, &set));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode Factors_Private(Descent *d)
-{
-  PC pc;
-
-  PetscFunctionBegin;
-  PetscCall(KSPCreate(PetscObjectComm((PetscObject)d->trial), &d->ksp));
-  PetscCall(KSPSetOptionsPrefix(d->ksp, "descent_"));
-  PetscCall(KSPSetType(d->ksp, KSPPREONLY));
-  PetscCall(KSPGetPC(d->ksp, &pc));
-  PetscCall(PCSetType(pc, PCCHOLESKY));
-  PetscCall(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
-  PetscCall(PCSetFromOptions(pc));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode DescentCreate_Private(Solver s, SolverReport *report, Descent *d)
 {
   PetscFunctionBegin;
@@ -61,9 +34,7 @@ PetscErrorCode DescentCreate_Private(Solver s, SolverReport *report, Descent *d)
   PetscCall(VecDuplicateAll(d->trial, 5, (Vec *[]){&d->gradient, &d->dx, &d->lambda, &d->depth, &d->next}));
   PetscCall(ProblemCreateRightSide(s->problem, &d->lift));
   PetscCall(VecDuplicateAll(d->lift, 4, (Vec *[]){&d->rhs, &d->y, &d->diagonal, &d->work}));
-  PetscCall(FactorOption_Private("-descent_mat_mumps_icntl_13", "1"));
-  PetscCall(FactorOption_Private("-descent_mat_mumps_icntl_14", "80"));
-  PetscCall(Factors_Private(d));
+  PetscCall(InertiaFactors_Private(PetscObjectComm((PetscObject)d->trial), &d->ksp));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -75,49 +46,21 @@ PetscErrorCode DescentDestroy_Private(Descent *d)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* What shifts are measured by: the largest entry of each row of displacements at the first matrix. */
+/* What shifts are measured by: the rows at the first matrix. */
 static PetscErrorCode Measure_Private(Descent *d, Mat A)
 {
-  PetscReal *array;
-  PetscInt   num_u, num_z, dim, num;
-
   PetscFunctionBegin;
-  if (d->measured) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!d->measured) PetscCall(ProblemRowScale(d->problem, A, d->diagonal));
   d->measured = PETSC_TRUE;
-  ProblemGetBlocks(d->problem, &num_u, &num_z, &dim);
-  PetscCall(MatGetRowMaxAbs(A, d->diagonal, NULL));
-  PetscCall(VecGetLocalSize(d->diagonal, &num));
-  PetscCall(VecGetArray(d->diagonal, &array));
-  for (PetscInt i = num_u; i < num; ++i) array[i] = 0;
-  PetscCall(VecRestoreArray(d->diagonal, &array));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-enum { NO_FACTOR = -1 /* the matrix is singular */, NO_MEMORY = -2 };
-
-/* Factorise the matrix, whose shift is there. *negative: directions of negative curvature, or why there is no factor. */
+/* Factorise the matrix, whose shift is there. */
 static PetscErrorCode Factor_Private(Descent *d, Mat A, PetscInt *negative)
 {
-  PCFailedReason failed;
-  PetscInt       constraints;
-  PC             pc;
-  Mat            F;
-
   PetscFunctionBegin;
-  *negative = NO_FACTOR;
-  PetscCall(StageBegin(STAGE_FACTOR));
   ++d->report->factorisations;
-  PetscCall(KSPSetOperators(d->ksp, A, A));
-  PetscCall(KSPSetUp(d->ksp));
-  PetscCall(StageEnd(STAGE_FACTOR));
-  PetscCall(KSPGetPC(d->ksp, &pc));
-  PetscCall(PCGetFailedReason(pc, &failed));
-  if (failed == PC_FACTOR_OUTMEMORY) *negative = NO_MEMORY;
-  if (failed != PC_NOERROR) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(PCFactorGetMatrix(pc, &F));
-  PetscCall(MatMumpsGetInfog(F, 12, negative));
-  PetscCall(ProblemNumNegative(d->problem, &constraints));
-  *negative = PetscMax(0, *negative - constraints);
+  PetscCall(InertiaFactor_Private(d->problem, d->ksp, A, negative));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -129,7 +72,7 @@ PetscErrorCode DescentApply_Private(Descent *d, PetscBool *ok)
   PetscCall(SolverFactorSolve_Private(d->ksp, d->rhs, d->y, &failed, ok));
   if (failed) {
     PetscCall(KSPDestroy(&d->ksp));
-    PetscCall(Factors_Private(d));
+    PetscCall(InertiaFactors_Private(PetscObjectComm((PetscObject)d->trial), &d->ksp));
   }
   if (*ok) PetscCall(ProblemMeritRecover(d->problem, d->y, d->dx));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -152,7 +95,7 @@ PetscErrorCode DescentDirection_Private(Descent *d, PetscReal *slope, PetscBool 
     d->added = d->shift = shift;
     PetscCall(Factor_Private(d, A, &negative));
     PetscCall(StopAsked(PetscObjectComm((PetscObject)A), &d->report->stopped));
-    if (negative == NO_MEMORY) break;
+    if (negative == INERTIA_NO_MEMORY) break;
     if (negative != 0) continue;
     PetscCall(DescentApply_Private(d, ok));
     if (!*ok) continue;

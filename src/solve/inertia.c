@@ -5,7 +5,10 @@
 
    LU, of a tangent that is not symmetric, tells no inertia, but the sign of the determinant: rows of multipliers are such that each adds a factor above zero
    where K is positive, pressures of incompressible material one below. So it tells an odd number of such directions, as there is beyond the first of a column's
-   critical loads, and nothing of an even one. */
+   critical loads, and nothing of an even one, as of two columns. So at the end of a load step the symmetric part of K is factorised as well, of follower loads
+   and of material that flows: where that is positive there is no such direction. With friction, which holds motions to both sides, it tells nothing.
+
+   A motion that meets no resistance has an eigenvalue that is round-off, whose sign says nothing: a shift by as much counts it as stable. */
 #include "solveimpl.h"
 
 /* MUMPS leaves the root of a distributed factor to ScaLAPACK, which does not count pivots, unless ICNTL(13) is 1: so chosen where somebody wants to know, with
@@ -96,5 +99,92 @@ PetscErrorCode SolverInertia_Private(Solver s, PC pc)
   PetscCall(PCGetFailedReason(pc, &failed));
   if (failed == PC_NOERROR) PetscCall((s->symmetric ? Pivots_Private : Sign_Private)(s, pc, &s->negative));
   if (s->negative > 0) ++s->report->indefinite;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Options of the factors before they are made: all pivots are counted, more room. Asked for afterwards, they are none that nothing used. */
+static PetscErrorCode FactorOption_Private(const char *name, const char *value)
+{
+  PetscBool set;
+
+  PetscFunctionBegin;
+  PetscCall(PetscOptionsHasName(NULL, NULL, name, &set));
+  if (!set) PetscCall(PetscOptionsSetValue(NULL, name, value));
+  PetscCall(PetscOptionsHasName(NULL, NULL, name, &set));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode InertiaFactors_Private(MPI_Comm comm, KSP *ksp)
+{
+  PC pc;
+
+  PetscFunctionBegin;
+  PetscCall(FactorOption_Private("-inertia_mat_mumps_icntl_13", "1"));
+  PetscCall(FactorOption_Private("-inertia_mat_mumps_icntl_14", "80"));
+  PetscCall(KSPCreate(comm, ksp));
+  PetscCall(KSPSetOptionsPrefix(*ksp, "inertia_"));
+  PetscCall(KSPSetType(*ksp, KSPPREONLY));
+  PetscCall(KSPGetPC(*ksp, &pc));
+  PetscCall(PCSetType(pc, PCCHOLESKY));
+  PetscCall(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
+  PetscCall(PCSetFromOptions(pc));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode InertiaFactor_Private(Problem problem, KSP ksp, Mat A, PetscInt *negative)
+{
+  PCFailedReason failed;
+  PetscInt       constraints;
+  PC             pc;
+  Mat            F;
+
+  PetscFunctionBegin;
+  *negative = INERTIA_NO_FACTOR;
+  PetscCall(StageBegin(STAGE_FACTOR));
+  PetscCall(KSPSetOperators(ksp, A, A));
+  PetscCall(KSPSetUp(ksp));
+  PetscCall(StageEnd(STAGE_FACTOR));
+  PetscCall(KSPGetPC(ksp, &pc));
+  PetscCall(PCGetFailedReason(pc, &failed));
+  if (failed == PC_FACTOR_OUTMEMORY) *negative = INERTIA_NO_MEMORY;
+  if (failed != PC_NOERROR) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PCFactorGetMatrix(pc, &F));
+  PetscCall(MatMumpsGetInfog(F, 12, negative));
+  PetscCall(ProblemNumNegative(problem, &constraints));
+  *negative = PetscMax(0, *negative - constraints);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscBool SolverIsSymmetric(Solver s)
+{
+  return s->symmetric;
+}
+
+PetscErrorCode SolverCountUnstable(Solver s, State *state, PetscInt *num)
+{
+  const PetscInt order = ProblemNumDofs(s->problem);
+  PetscBool      is_there;
+  PetscInt       sign;
+  KSP            ksp;
+  Mat            A;
+  Vec            r;
+  ProblemStatus  status;
+
+  PetscFunctionBegin;
+  *num = -1;
+  PetscCall(ProblemStableSign(s->problem, &sign));
+  if (s->saddle || sign == 0 || InterfaceSlips(ProblemInterface(s->problem))) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(ProblemSetState(s->problem, state));
+  PetscCall(ProblemSearch(s->problem, state->x));
+  PetscCall(VecDuplicate(state->x, &r));
+  PetscCall(ProblemResidual(s->problem, state->x, NULL, r, &status));
+  PetscCall(VecDestroy(&r));
+  PetscCall(ProblemSymmetricPart(s->problem, state->x, state->pressure, PETSC_MACHINE_EPSILON * (PetscReal)order, &is_there));
+  if (!is_there) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(ProblemGetMatrix(s->problem, &A));
+  PetscCall(InertiaFactors_Private(PetscObjectComm((PetscObject)A), &ksp));
+  PetscCall(InertiaFactor_Private(s->problem, ksp, A, num));
+  PetscCall(KSPDestroy(&ksp));
+  PetscCall(PetscInfo(s->snes, "the symmetric part has %" PetscInt_FMT " unstable directions\n", *num));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

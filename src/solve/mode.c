@@ -2,22 +2,6 @@
    of the rows of displacements; by inverse iteration with one factor. At a bifurcation or a limit point that eigenvalue is 0. */
 #include "solveimpl.h"
 
-/* D: the largest entry of each row of displacements, 0 for all others. */
-static PetscErrorCode Scale_Private(Solver s, Mat A, Vec scale)
-{
-  PetscInt   num_u, num_z, dim, num;
-  PetscReal *array;
-
-  PetscFunctionBegin;
-  PetscCall(MatGetRowMaxAbs(A, scale, NULL));
-  ProblemGetBlocks(s->problem, &num_u, &num_z, &dim);
-  PetscCall(VecGetLocalSize(scale, &num));
-  PetscCall(VecGetArray(scale, &array));
-  for (PetscInt i = num_u; i < num; ++i) array[i] = 0;
-  PetscCall(VecRestoreArray(scale, &array));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* Forces without symmetry, from the reference positions: the same on any number of ranks. */
 static PetscErrorCode Start_Private(Solver s, Vec scale, Vec x)
 {
@@ -56,7 +40,7 @@ static PetscErrorCode Lowest_Private(Solver s, Vec x, Lowest *low, PetscBool *kn
   PetscFunctionBegin;
   PetscCall(ProblemGetMatrix(s->problem, &A));
   PetscCall(VecDuplicate(s->rhs, &scale));
-  PetscCall(Scale_Private(s, A, scale));
+  PetscCall(ProblemRowScale(s->problem, A, scale));
   PetscCall(Start_Private(s, scale, x));
   PetscCall(SolverInverseIteration_Private(Apply_Private, s, scale, s->rhs, s->y, low, known));
   PetscCall(VecDestroy(&scale));

@@ -164,6 +164,11 @@ PetscErrorCode SolverInverseIteration_Private(InverseApply, void *context, Vec s
 /* inertia.c: on several processes MUMPS counts negative pivots only when told to; once before the first factor. The count, after each: s->negative. */
 PetscErrorCode SolverInertiaSetUp_Private(Solver);
 PetscErrorCode SolverInertia_Private(Solver, PC);
+/* A KSP that is MUMPS' LDL^T and counts all pivots. Factorise with it A, the matrix of a problem in a symmetric form; *negative: its negative eigenvalues
+   beyond those of the constraints, or why there is no factor. Collective. */
+enum { INERTIA_NO_FACTOR = -1 /* A is singular */, INERTIA_NO_MEMORY = -2 };
+PetscErrorCode InertiaFactors_Private(MPI_Comm, KSP *);
+PetscErrorCode InertiaFactor_Private(Problem, KSP, Mat A, PetscInt *negative);
 
 /* descent.c: minimisation of the augmented Lagrangian Phi. */
 typedef struct {
