@@ -71,8 +71,8 @@ PetscErrorCode SolverDescend(Solver, State *, SolverReport *);
    its eigenvector as a vector of the problem (NULL: not wanted). Not known where the tangent is singular. Collective. */
 PetscErrorCode SolverLowestMode(Solver, State *, PetscReal *stiffness, Vec mode, PetscBool *known);
 /* inertia.c. Directions in which an equilibrium is unstable: negative eigenvalues of the symmetric part of its tangent, round-off left out. num < 0: not
-   known, with friction, controls, multigrid or where a factor is not found. Leaves the problem's matrix with that part. IsSymmetric: are factors LDL^T, which
-   count as they solve? Collective. */
+   known, with friction, bodies that contact alone holds, controls, multigrid or where a factor is not found. Leaves the problem's matrix with that part.
+   IsSymmetric: are factors LDL^T, which count as they solve? Collective. */
 PetscErrorCode SolverCountUnstable(Solver, State *, PetscInt *num);
 PetscBool      SolverIsSymmetric(Solver);
 /* From an equilibrium that is unstable (report.unstable) to one that is stable, or less so: along the eigenvector of the lowest eigenvalue, where the energy

@@ -54,7 +54,7 @@ static PetscErrorCode Leave_Private(Path *p, PetscReal *fall, PetscBool *neutral
 }
 
 /* In how many directions is it unstable, where the factors at hand do not tell: of a tangent that is not symmetric, or without an energy to fall. Where the
-   sign of the determinant is all there is, with friction, an eigenvalue that is round-off, as of a body that is free to turn, makes it nothing. */
+   sign of the determinant is all there is, an eigenvalue that is round-off, as of a body that is free to turn, makes it nothing. */
 static PetscErrorCode Count_Private(Path *p)
 {
   Level    *l = p->level;

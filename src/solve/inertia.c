@@ -6,7 +6,8 @@
    LU, of a tangent that is not symmetric, tells no inertia, but the sign of the determinant: rows of multipliers are such that each adds a factor above zero
    where K is positive, pressures of incompressible material one below. So it tells an odd number of such directions, as there is beyond the first of a column's
    critical loads, and nothing of an even one, as of two columns. So at the end of a load step the symmetric part of K is factorised as well, of follower loads
-   and of material that flows: where that is positive there is no such direction. With friction, which holds motions to both sides, it tells nothing.
+   and of material that flows: where that is positive there is no such direction. Not with friction, which holds motions to both sides, nor with bodies that
+   contact alone holds: round ones turn over facets, up and down by less than the mesh is off.
 
    A motion that meets no resistance has an eigenvalue that is round-off, whose sign says nothing: a shift by as much counts it as stable. */
 #include "solveimpl.h"
@@ -173,7 +174,7 @@ PetscErrorCode SolverCountUnstable(Solver s, State *state, PetscInt *num)
   PetscFunctionBegin;
   *num = -1;
   PetscCall(ProblemStableSign(s->problem, &sign));
-  if (s->saddle || sign == 0 || InterfaceSlips(ProblemInterface(s->problem))) PetscFunctionReturn(PETSC_SUCCESS);
+  if (s->saddle || sign == 0 || InterfaceSlips(ProblemInterface(s->problem)) || ProblemHasFreeBody(s->problem)) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ProblemSetState(s->problem, state));
   PetscCall(ProblemSearch(s->problem, state->x));
   PetscCall(VecDuplicate(state->x, &r));
