@@ -61,6 +61,7 @@ typedef struct {
   PetscBool     exchanged;         /* the scene names them the other way round, figures are of the sides as the scene names them */
   PetscBool     given;             /* they are not to be exchanged */
   PetscBool     cornered;          /* the nonmortar side was chosen for its corners; by stiffness it would be the other one */
+  PetscBool     stiff;             /* it is so much stiffer than the other side that it is as rigid */
   ContactLaw    law;               /* what its multipliers fulfil (interface/law/) */
   PetscReal     penalty;           /* law penalty: stiffness, pressure over overlap */
   Expression    friction;          /* law coulomb: its coefficient, of t */

@@ -258,6 +258,9 @@ typedef struct {
 } InterfaceCorner;
 /* At the last evaluation; near: also those that are about to, off by less than a tenth of the facet. Freed by the caller. Collective. */
 PetscErrorCode InterfaceFindCorners(Interface, uint64_t pairs, PetscBool near, PetscInt *num, InterfaceCorner **corners);
+/* Of these pairs those whose nonmortar sides press beside the facets at their sharp corners, and on one side of each of these alone: there zones of contact
+   end. Collective. */
+PetscErrorCode InterfaceFindSpread(Interface, uint64_t pairs, uint64_t *spread);
 /* Pairs that have borne nothing yet. */
 PetscErrorCode InterfaceFindUntouched(Interface, uint64_t *pairs);
 /* At each iterate of a solve: notes in which facets the mortar side ends, and which that changed for while they bore. begin: what was noted is forgotten, as at

@@ -75,6 +75,45 @@ static uint64_t Candidates_Private(const App *app)
   return pairs & ~(app->exchanged | app->settled);
 }
 
+/* The pair's corners are no longer those of its nonmortar side. */
+static void Forget_Private(App *app, PetscInt pair)
+{
+  PetscInt num = 0;
+
+  for (PetscInt k = 0; k < app->num_corners; ++k)
+    if (app->corner[k].group != pair) app->corner[num++] = app->corner[k];
+  app->num_corners = num;
+}
+
+static PetscErrorCode Return_Private(App *app, const ContactSpec *c, const char *why)
+{
+  PetscFunctionBegin;
+  app->settled |= UINT64_C(1) << c->pair;
+  Forget_Private(app, c->pair);
+  PetscCall(Exchange_Private(app, c, why));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* A side as good as rigid, in which nothing makes many constraints felt, was to carry the multipliers for a corner that pressed alone. */
+static PetscErrorCode ReturnWide_Private(App *app)
+{
+  uint64_t pairs = 0, wide;
+
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < app->data->num_contacts; ++i) {
+    const ContactSpec *c = &app->data->contacts[i];
+    if (c->cornered && c->stiff && c->pair < MOST) pairs |= UINT64_C(1) << c->pair;
+  }
+  pairs &= app->exchanged & ~app->settled;
+  if (!pairs) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(InterfaceFindSpread(ProblemInterface(app->level.problem), pairs, &wide));
+  for (PetscInt i = 0; i < app->data->num_contacts; ++i) {
+    const ContactSpec *c = &app->data->contacts[i];
+    if (c->part == 0 && c->pair < MOST && wide >> c->pair & 1) PetscCall(Return_Private(app, c, "the stiff side presses beside its corner"));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode AppCheckRoles(App *app, PetscBool found)
 {
   const uint64_t   candidates = Candidates_Private(app);
@@ -82,7 +121,8 @@ PetscErrorCode AppCheckRoles(App *app, PetscBool found)
   InterfaceCorner *corners;
 
   PetscFunctionBegin;
-  if (!candidates) PetscFunctionReturn(PETSC_SUCCESS);
+  if (found) PetscCall(ReturnWide_Private(app));
+  if (!candidates || app->anew) PetscFunctionReturn(PETSC_SUCCESS);
   if (!found) PetscCall(GoBack_Private(app));
   PetscCall(InterfaceFindCorners(ProblemInterface(app->level.problem), candidates, (PetscBool)!found, &num, &corners));
   for (PetscInt k = 0; k < num; ++k) {
@@ -96,25 +136,13 @@ PetscErrorCode AppCheckRoles(App *app, PetscBool found)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The pair's corners are no longer those of its nonmortar side. */
-static void Forget_Private(App *app, PetscInt pair)
-{
-  PetscInt num = 0;
-
-  for (PetscInt k = 0; k < app->num_corners; ++k)
-    if (app->corner[k].group != pair) app->corner[num++] = app->corner[k];
-  app->num_corners = num;
-}
-
 PetscErrorCode AppReturnRoles(App *app)
 {
   PetscFunctionBegin;
   for (PetscInt i = 0; i < app->data->num_contacts; ++i) {
     const ContactSpec *c = &app->data->contacts[i];
     if (c->part > 0 || !c->cornered || c->pair >= MOST || app->settled >> c->pair & 1) continue;
-    app->settled |= UINT64_C(1) << c->pair;
-    Forget_Private(app, c->pair);
-    PetscCall(Exchange_Private(app, c, "no equilibrium was found with the side that has corners as the nonmortar side"));
+    PetscCall(Return_Private(app, c, "no equilibrium was found with the side that has corners as the nonmortar side"));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -278,6 +278,57 @@ static PetscErrorCode Pair_Private(Interface p, PetscReal slack, PetscInt num_pa
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Does a facet press with nodes that are not those of the edge? */
+static PetscBool Bears_Private(const Contact *c, const Edge *e, PetscInt k)
+{
+  const PetscInt *node, num = SurfaceNodes_Private(&c->side[0], e->facet[k], &node);
+
+  for (PetscInt i = 0; i < num; ++i)
+    if (node[i] != e->ends[0] && node[i] != e->ends[1] && IsPressed_Private(c, node[i])) return PETSC_TRUE;
+  return PETSC_FALSE;
+}
+
+/* Does a nonmortar side press beside the facets at its sharp corners; does it press on both sides of one? */
+static PetscErrorCode Spread_Private(const Contact *c, PetscBool *beside, PetscBool *both)
+{
+  const Surface *s      = &c->side[0];
+  const PetscInt places = Places_Private(s);
+  PetscInt       edges, *at;
+  int8_t        *mark;
+  Edge          *edge;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc2(places * s->num_facets, &edge, places * s->num_facets, &at));
+  PetscCall(PetscCalloc1(s->num_facets, &mark));
+  PetscCall(Edges_Private(s, &edges, edge, at));
+  for (PetscInt k = 0; k < edges; ++k) {
+    mark[edge[k].facet[0]] = mark[edge[k].facet[1]] = 1;
+    if (Bears_Private(c, &edge[k], 0) && Bears_Private(c, &edge[k], 1)) *both = PETSC_TRUE;
+  }
+  PetscCall(Beside_Private(c, mark, beside));
+  PetscCall(PetscFree(mark));
+  PetscCall(PetscFree2(edge, at));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode InterfaceFindSpread(Interface p, uint64_t pairs, uint64_t *spread)
+{
+  uint64_t set[2] = {0, 0}; /* those that press beside corners, and on both sides of one */
+
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < p->num_contacts; ++i) {
+    const Contact *c      = &p->contacts[i];
+    PetscBool      beside = PETSC_FALSE, both = PETSC_FALSE;
+    if (c->spec->pair >= 64 || !(pairs >> c->spec->pair & 1)) continue;
+    PetscCall(Spread_Private(c, &beside, &both));
+    if (beside) set[0] |= UINT64_C(1) << c->spec->pair;
+    if (both) set[1] |= UINT64_C(1) << c->spec->pair;
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, set, 2, MPI_UINT64_T, MPI_BOR, p->comm));
+  *spread = set[0] & ~set[1];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode InterfaceFindCorners(Interface p, uint64_t pairs, PetscBool near, PetscInt *num, InterfaceCorner **corners)
 {
   PetscFunctionBegin;

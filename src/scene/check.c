@@ -1,7 +1,9 @@
 /* The scene against its mesh: names of groups, every cell in a body, every body held, contact pairs of two surfaces. */
 #include "rim.h"
 
-#define AS_RIGID 10 /* times the modulus of the other side, in space: then nothing of its own makes each of many constraints round an edge felt */
+#define AS_RIGID                                                                                                                                               \
+  10 /* times the modulus of the other side: then nothing of its own makes each of many constraints at a corner, in space round an edge, felt                  \
+      */
 
 /* What one pass over the facets of the mesh finds. */
 typedef struct {
@@ -241,38 +243,56 @@ static PetscReal Stiffness_Private(Scene s, const Facets *f, PetscInt group)
   return least;
 }
 
-/* Is the nonmortar side of the scene better the mortar one, and why? Nodes that a support holds have no multiplier, so a side that is held is as a rigid one.
-   In the plane the side that has corners carries the multiplier: a corner has a node, which is held on a smooth face wherever it slides; within a facet of the
-   other side its constraint would be a mean of gaps that grow to both sides, which depends on the place, so that the corner rides over bumps. One that is
-   rounded within a facet of the other side is alike, in space too: that facet would wrap round it, unless it is as hollow. Not where the corner's facets are
-   longer than all of the other side: what lies between its nodes is held by nothing. Where both sides have corners or neither has, the softer one: on a stiffer
-   side the constraints are as coarse as its facets while the other side deforms between its nodes; on a rigid one nothing of its own makes each of them felt.
- */
+/* Why the nonmortar side of the scene is better the mortar one by what it is made of, NULL: it is not. Nodes that a support holds have no multiplier. On a
+   stiffer side, or one of much longer facets, the constraints are as coarse as its facets while the other side deforms between its nodes; on a rigid one
+   nothing of its own makes each of them felt. */
+static const char *Plain_Private(const PetscReal stiffness[2], const SideShape side[2])
+{
+  for (PetscInt k = 0; k < 2; ++k) {
+    if (stiffness[k] >= PETSC_INFINITY) return k ? NULL : "is rigid";
+  }
+  const PetscReal held = side[0].held == 1 || side[1].held == 1 ? 1 : 0.5 + ROUND_LENGTH;
+  if ((side[0].held >= held) != (side[1].held >= held)) return side[0].held >= held ? "is held by supports" : NULL;
+  if (stiffness[0] != stiffness[1]) return stiffness[0] > stiffness[1] ? "is the stiffer one" : NULL;
+  return side[0].longest > (2 + ROUND_LENGTH) * side[1].longest ? "has facets more than twice as long" : NULL;
+}
+
+/* The same with what it looks like. In the plane the side that has corners carries the multiplier: a corner has a node, which is held on a smooth face wherever
+   it slides; within a facet of the other side its constraint would be a mean of gaps that grow to both sides, which depends on the place, so that the corner
+   rides over bumps. One that is rounded within a facet of the other side is alike, in space too: that facet would wrap round it, unless it is as hollow. Not
+   where the corner's facets are longer than all of the other side: what lies between its nodes is held by nothing; nor a sharp one, in space none, of a body
+   that is rigid or next to it. *cornered: for its shape. */
 static const char *Exchange_Private(const Facets *f, const ContactEntry *c, const PetscReal stiffness[2], const SideShape side[2], PetscBool *cornered)
 {
-  const char *why = stiffness[0] > stiffness[1] ? "is the stiffer one" : NULL;
+  const char *plain = Plain_Private(stiffness, side), *why = plain;
   PetscBool   corner[2], rounded[2];
 
-  if ((side[0].held > 0.5) != (side[1].held > 0.5)) return side[0].held > 0.5 ? "is held by supports" : NULL;
-  if (stiffness[1] >= PETSC_INFINITY || c->spec.law == CONTACT_TIED) return why;
+  if (c->spec.law == CONTACT_TIED || side[0].held > 0.5 || side[1].held > 0.5) return plain;
   for (PetscInt k = 0; k < 2; ++k) {
     const SideShape *other = &side[!k];
-    const PetscBool  stiff = (PetscBool)(f->mesh->dim == 3 && stiffness[k] > AS_RIGID * stiffness[!k]);
-    corner[k]              = (PetscBool)(side[k].corner <= other->longest);
-    rounded[k]             = (PetscBool)(!stiff && SideShapeRounded(&side[k], acos(CONTACT_SHARP) + other->hollow) <= other->longest);
+    const PetscBool  stiff = (PetscBool)(stiffness[k] > AS_RIGID * stiffness[!k]);
+    corner[k]              = (PetscBool)(!stiff && side[k].corner <= other->longest);
+    rounded[k]             = (PetscBool)((f->mesh->dim == 2 || !stiff) && SideShapeRounded(&side[k], acos(CONTACT_SHARP) + other->hollow) <= other->longest);
   }
   if (corner[0] != corner[1])
-    why = corner[0] ? NULL : "has no corner, the other side has,";
+    why = corner[0] ? NULL : plain ? plain : "has no corner, the other side has,";
   else if (!corner[0] && rounded[0] != rounded[1]) /* a sharp one comes first */
-    why = rounded[0] ? NULL : "has no edge rounded within a facet of the other side, which has,";
-  *cornered = (PetscBool)((why != NULL) != (stiffness[0] > stiffness[1]));
+    why = rounded[0] ? NULL : plain ? plain : "has no edge rounded within a facet of the other side, which has,";
+  *cornered = (PetscBool)((why != NULL) != (plain != NULL));
   return why;
+}
+
+/* Does nothing of it move under a pressure? */
+static PetscBool IsFast_Private(PetscReal stiffness, const SideShape *side)
+{
+  return (PetscBool)(stiffness >= PETSC_INFINITY || side->held == 1);
 }
 
 static PetscErrorCode Roles_Private(Scene s, const Facets *f, ContactEntry *c)
 {
   const PetscInt group[2] = {c->spec.nonmortar, c->spec.mortar};
   PetscReal      stiffness[2];
+  PetscBool      fast[2];
   SideShape      side[2];
 
   PetscFunctionBegin;
@@ -282,19 +302,21 @@ static PetscErrorCode Roles_Private(Scene s, const Facets *f, ContactEntry *c)
                   NodeWhere(c->node), c->nonmortar, c->mortar);
   for (PetscInt k = 0; k < 2; ++k) {
     PetscCall(SideShapeCreate(f->whole, group[k], s->num_boundaries, s->data.boundaries, &side[k]));
-    if (rigid[k]) side[k].held = 1;
+    if (rigid[k]) side[k].held = 0; /* its nodes have multipliers */
+    fast[k] = IsFast_Private(stiffness[k], &side[k]);
   }
-  PetscCheckInput(c->spec.law == CONTACT_TIED || side[0].held < 1 || side[1].held < 1,
+  PetscCheckInput(c->spec.law == CONTACT_TIED || !fast[0] || !fast[1],
                   "%s: supports or rigid bodies hold all of '%s' and of '%s' along their normals; one side of a pair must be free to move under a pressure",
                   NodeWhere(c->node), c->nonmortar, c->mortar);
-  const char *why = rigid[0] ? "is rigid" : side[0].held == 1 && side[1].held < 1 ? "is held by supports" : NULL;
-  if (!why && c->roles != ROLES_GIVEN) why = Exchange_Private(f, c, stiffness, side, &c->spec.cornered);
+  const char *why = fast[0] ? Plain_Private(stiffness, side) : NULL;
+  if (c->roles != ROLES_GIVEN) why = Exchange_Private(f, c, stiffness, side, &c->spec.cornered);
   for (PetscInt k = 0; k < 2; ++k) PetscCall(SideShapeDestroy(&side[k]));
   c->spec.given = (PetscBool)(c->roles == ROLES_GIVEN);
   if (s->exchange >> (c - s->contact) & 1) {
     c->spec.cornered = (PetscBool)!c->spec.cornered;
     why              = why ? NULL : c->spec.cornered ? "has no corner that presses, the other side has," : "is the stiffer one";
   }
+  c->spec.stiff = (PetscBool)(stiffness[!!why] > AS_RIGID * stiffness[!why]);
   if (!why) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscPrintf(s->comm, "note: %s: '%s' %s and becomes the mortar side, '%s' the nonmortar side\n", NodeWhere(c->node), c->nonmortar, why, c->mortar));
   c->spec.exchanged = PETSC_TRUE;
