@@ -234,8 +234,10 @@ PetscErrorCode InterfaceRightSide(Interface, const InterfaceSystem *, Vec rhs);
 void           InterfaceScaleIncrement(Interface, PetscReal dx[]);
 /* Of a Newton step: the multipliers of open nodes go to 0, as their rows say but for round-off. Collective. */
 PetscErrorCode InterfaceOpenIncrement(Interface, Vec dx);
+/* Which nodes that disagree with a linear step switch: all, the one farthest off as a force, or the last one. */
+typedef enum { SWITCH_ALL, SWITCH_WORST, SWITCH_LAST } SwitchRule;
 /* One pass of the active set: as ProblemSwitchActiveSet, but for the assembly of the matrix. */
-PetscErrorCode InterfaceSwitch(Interface, const InterfaceSystem *, Vec dx, PetscBool single, Vec rhs, PetscInt *disagree);
+PetscErrorCode InterfaceSwitch(Interface, const InterfaceSystem *, Vec dx, SwitchRule, Vec rhs, PetscInt *disagree);
 
 /* ---- what a form may be chosen by, at the last evaluation. All collective ------------------------------------------------------- */
 

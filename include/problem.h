@@ -185,9 +185,8 @@ PetscErrorCode ProblemRowScale(Problem, Mat A, Vec scale);
 /* rhs = -(r + lift), condensed like the last tangent, multiplier rows in its form; r of the problem, lift and rhs of the matrix. */
 PetscErrorCode ProblemRightSide(Problem, Vec r, Vec lift, Vec rhs);
 /* Active-set passes against the last tangent: given the solution dx of tangent . dx = -rhs, decide anew which constraints are active, rewrite their rows in the
-   matrix and the right-hand side; single: of the last node alone, in the order of pairs and nodes, whose state disagrees with dx. *disagree: how many do (all
-   ranks). Collective. */
-PetscErrorCode ProblemSwitchActiveSet(Problem, Vec dx, PetscBool single, Vec rhs, PetscInt *disagree);
+   matrix and the right-hand side: of all nodes whose state disagrees with dx, or of one of them. *disagree: how many do (all ranks). Collective. */
+PetscErrorCode ProblemSwitchActiveSet(Problem, Vec dx, SwitchRule, Vec rhs, PetscInt *disagree);
 /* ---- what a form may be chosen by, at the last residual. All collective ---- */
 
 /* As InterfaceMayFreezeSegmentation. Under viscous regularisation: no. */

@@ -356,14 +356,22 @@ typedef struct {
   int8_t       *state; /* [num_own] */
 } Verdict;
 
-/* Verdicts of all pairs; how many nodes disagree with their states, and the last of them, pair << 32 + node, -1: there is none. */
-static PetscErrorCode Judge_Private(Interface p, const InterfaceSystem *a, Vec dx, Verdict verdict[], PetscInt *disagree, int64_t *last)
+/* How far a node is from its state, as a force. */
+static PetscReal Off_Private(const ContactPoint *p)
+{
+  return p->weight > 0 ? p->w0 * PetscAbsReal(p->z[0] - p->c * p->gap / p->weight) : 0;
+}
+
+/* Verdicts of all pairs; how many nodes disagree with their states, and one of them by the rule, pair << 32 + node, -1: there is none. Of two that are as far
+   off the last one. */
+static PetscErrorCode Judge_Private(Interface p, const InterfaceSystem *a, Vec dx, SwitchRule rule, Verdict verdict[], PetscInt *disagree, int64_t *one)
 {
   const PetscReal *d;
+  PetscReal        own = -1, most;
 
   PetscFunctionBegin;
   *disagree = 0;
-  *last     = -1;
+  *one      = -1;
   PetscCall(VecGetArrayRead(dx, &d));
   for (PetscInt i = 0; i < p->num_contacts; ++i) {
     Contact       *c   = &p->contacts[i];
@@ -374,27 +382,33 @@ static PetscErrorCode Judge_Private(Interface p, const InterfaceSystem *a, Vec d
     for (PetscInt k = 0; k < num; ++k) {
       const PetscInt j = c->side[0].own[k];
       if (verdict[i].state[k] == c->active[j]) continue;
+      const PetscReal off = rule == SWITCH_WORST ? Off_Private(&verdict[i].point[k]) : 0;
       ++*disagree;
-      *last = PetscMax(*last, ((int64_t)i << 32) + j);
+      if (off < own) continue;
+      own  = off;
+      *one = ((int64_t)i << 32) + j;
     }
   }
   PetscCall(VecRestoreArrayRead(dx, &d));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, disagree, 1, MPIU_INT, MPI_SUM, p->comm));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, last, 1, MPI_INT64_T, MPI_MAX, p->comm));
+  PetscCallMPI(MPI_Allreduce(&own, &most, 1, MPIU_REAL, MPI_MAX, p->comm));
+  if (own < most) *one = -1;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, one, 1, MPI_INT64_T, MPI_MAX, p->comm));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode InterfaceSwitch(Interface p, const InterfaceSystem *a, Vec dx, PetscBool single, Vec rhs, PetscInt *disagree)
+PetscErrorCode InterfaceSwitch(Interface p, const InterfaceSystem *a, Vec dx, SwitchRule rule, Vec rhs, PetscInt *disagree)
 {
-  Verdict *verdict;
-  int64_t  last;
+  const PetscBool single = (PetscBool)(rule != SWITCH_ALL);
+  Verdict        *verdict;
+  int64_t         one;
 
   PetscFunctionBegin;
   PetscCall(PetscCalloc1(p->num_contacts, &verdict));
-  PetscCall(Judge_Private(p, a, dx, verdict, disagree, &last));
+  PetscCall(Judge_Private(p, a, dx, rule, verdict, disagree, &one));
   for (PetscInt i = 0; i < p->num_contacts; ++i) {
-    if (*disagree && verdict[i].state && (!single || i == last >> 32))
-      PetscCall(Apply_Private(p, a, &p->contacts[i], verdict[i].point, verdict[i].state, single ? (PetscInt)(last & UINT32_MAX) : -1, rhs));
+    if (*disagree && verdict[i].state && (!single || i == one >> 32))
+      PetscCall(Apply_Private(p, a, &p->contacts[i], verdict[i].point, verdict[i].state, single ? (PetscInt)(one & UINT32_MAX) : -1, rhs));
     PetscCall(PetscFree2(verdict[i].point, verdict[i].state));
   }
   PetscCall(PetscFree(verdict));

@@ -145,7 +145,7 @@ PetscErrorCode ProblemSymmetricPart(Problem p, Vec x, const PetscReal pressure[]
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ProblemSwitchActiveSet(Problem p, Vec dx, PetscBool single, Vec rhs, PetscInt *disagree)
+PetscErrorCode ProblemSwitchActiveSet(Problem p, Vec dx, SwitchRule rule, Vec rhs, PetscInt *disagree)
 {
   const InterfaceSystem system = ProblemSystem_Private(p);
 
@@ -153,7 +153,7 @@ PetscErrorCode ProblemSwitchActiveSet(Problem p, Vec dx, PetscBool single, Vec r
   *disagree = 0;
   if (!p->scene->num_contacts) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ProblemIncrement_Private(p, dx, 1.0));
-  PetscCall(InterfaceSwitch(p->interface, &system, dx, single, rhs, disagree));
+  PetscCall(InterfaceSwitch(p->interface, &system, dx, rule, rhs, disagree));
   if (*disagree) PetscCall(MatAssemble(p->matrix, MAT_FINAL_ASSEMBLY));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

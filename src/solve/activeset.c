@@ -1,17 +1,18 @@
 /* The active set of a linear step: which nodes bear, stick and slip if gaps, slip and multipliers change as the tangent says. Every node whose state disagrees
    with the step switches at once, which mostly ends after a few passes, but may go in circles: where a fine side faces a coarser one, and round corners within
    a facet, few nodes bear, and each relieves others. Where no pass in s->passes leaves fewer nodes that disagree than any before, or a set comes again, one
-   node alone switches, the last one, until fewer disagree: block principal pivoting with Murty's rule in reserve (J. J. Júdice, F. M. Pires, Computers &
-   Operations Research 21 (1994) 587), which ends for any linear complementarity problem whose matrix is positive definite. Where the tangent has negative
-   pivots beyond those of constraints it is not, and no set may agree: the tangent is made again at fixed directions then (frozennormals.c). Sets may come again
-   although one node at a time switches, with friction above all. Where nothing says that single switches end they do after s->passes in a row that leave no
-   fewer nodes in disagreement. Then the last linear step is taken. */
+   node alone switches until fewer disagree: that farthest off, or where a set comes again even so, or there may be several solutions, the last one: block
+   principal pivoting with Murty's rule in reserve (J. J. Júdice, F. M. Pires, Computers & Operations Research 21 (1994) 587), which ends for any linear
+   complementarity problem whose matrix is positive definite, but may take many passes. Of the many nodes of a rigid side on one facet of the other few bear,
+   and those are soon found so. Where the tangent has negative pivots beyond those of constraints it is not, and no set may agree: the tangent is made again at
+   fixed directions then (frozennormals.c). Sets may come again although one node at a time switches, with friction above all. Where nothing says that single
+   switches end they do after s->passes in a row that leave no fewer nodes in disagreement. Then the last linear step is taken. */
 #include "solveimpl.h"
 
 typedef struct {
-  PetscInt  pass, first; /* number of the pass; of the first whose set may come again */
-  PetscInt  least, idle; /* nodes that disagreed, at the fewest; passes since then */
-  PetscBool single;      /* one node switches */
+  PetscInt   pass, first; /* number of the pass; of the first whose set may come again */
+  PetscInt   least, idle; /* nodes that disagreed, at the fewest; passes since then */
+  SwitchRule rule;        /* of the last pass */
 } Passes;
 
 static PetscErrorCode LinearSolve_Private(Solver s, PetscBool again, Vec dx)
@@ -38,12 +39,14 @@ static PetscErrorCode Note_Private(Solver s, const Passes *p, PetscBool *seen)
 }
 
 /* Nodes that disagree with the linear step switch: all, or one. */
-static PetscErrorCode Switch_Private(Solver s, Passes *p, PetscBool single, Vec dx, PetscInt *disagree)
+static PetscErrorCode Switch_Private(Solver s, Passes *p, SwitchRule rule, Vec dx, PetscInt *disagree)
 {
+  const PetscBool single = (PetscBool)(rule != SWITCH_ALL);
+
   PetscFunctionBegin;
-  if (single && !p->single) p->first = p->pass;
-  p->single = single;
-  PetscCall(ProblemSwitchActiveSet(s->problem, dx, single, s->rhs, disagree));
+  if (single && p->rule != rule) p->first = p->pass;
+  p->rule = rule;
+  PetscCall(ProblemSwitchActiveSet(s->problem, dx, rule, s->rhs, disagree));
   s->report->set_changes += single ? *disagree > 0 : *disagree;
   s->report->single_switches += single && *disagree > 0;
   PetscCall(PetscInfo(s->snes, "active-set pass %" PetscInt_FMT ": %" PetscInt_FMT " nodes disagree%s\n", p->pass, *disagree, single ? ", one switches" : ""));
@@ -77,7 +80,7 @@ PetscErrorCode SolverActiveSetSolve_Private(Solver s, PetscBool again, Vec dx, P
   s->no_set = PETSC_FALSE;
   for (; disagree && !s->report->stopped; ++p.pass) {
     PetscCall(Note_Private(s, &p, &seen));
-    if (seen && p.single) {
+    if (seen && p.rule == SWITCH_LAST) {
       ++s->report->set_cycles;
       PetscCall(PetscInfo(s->snes, "active sets repeat after %" PetscInt_FMT " passes\n", p.pass));
       break;
@@ -92,7 +95,8 @@ PetscErrorCode SolverActiveSetSolve_Private(Solver s, PetscBool again, Vec dx, P
       break;
     }
     if (single && (!s->single_switches || (p.idle >= 2 * s->passes && !(convex && frictionless)))) break;
-    PetscCall(Switch_Private(s, &p, single, dx, &disagree));
+    const PetscBool worst = (PetscBool)(frictionless && convex && p.rule != SWITCH_LAST && !(seen && p.rule == SWITCH_WORST));
+    PetscCall(Switch_Private(s, &p, !single ? SWITCH_ALL : worst ? SWITCH_WORST : SWITCH_LAST, dx, &disagree));
     if (disagree) PetscCall(StopAsked(PetscObjectComm((PetscObject)s->snes), &s->report->stopped));
   }
   *settled = (PetscBool)(disagree == 0);
@@ -112,7 +116,7 @@ PetscErrorCode SolverPressuresFirst_Private(Solver s, Vec dx, PetscBool *settled
   s->form.pressures_first = PETSC_FALSE;
   if (!*settled || s->no_solution) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ProblemSetForm(s->problem, &s->form));
-  PetscCall(ProblemSwitchActiveSet(s->problem, dx, PETSC_FALSE, s->rhs, &changed));
+  PetscCall(ProblemSwitchActiveSet(s->problem, dx, SWITCH_ALL, s->rhs, &changed));
   s->report->set_changes += changed;
   if (changed) PetscCall(SolverActiveSetSolve_Private(s, PETSC_TRUE, dx, settled));
   *settled = PETSC_TRUE;
