@@ -176,7 +176,7 @@ PetscBool ProblemGetSymmetric(Problem);
 PetscBool ProblemIsSymmetric(Problem);
 /* Would it be, if this material had a symmetric tangent? */
 PetscBool ProblemIsSymmetricBut(Problem, const MaterialSpec *);
-/* The symmetric part of dR/dx at a solution x, without friction; none of its eigenvalues is larger than the real parts of all of dR/dx. Into the problem's
+/* The symmetric part of dR/dx at a solution x, without friction; its lowest eigenvalue is not above the real part of any of dR/dx. Into the problem's
    matrix, with shift times the largest entry of each row of displacements on its diagonal. *is_there: not where a constraint holds the rim of a mortar side.
    Collective. */
 PetscErrorCode ProblemSymmetricPart(Problem, Vec x, const PetscReal pressure[], PetscReal shift, PetscBool *is_there);

@@ -283,7 +283,7 @@ static const char *Exchange_Private(const Facets *f, const ContactEntry *c, cons
 }
 
 /* Does nothing of it move under a pressure? */
-static PetscBool IsFast_Private(PetscReal stiffness, const SideShape *side)
+static PetscBool IsFixed_Private(PetscReal stiffness, const SideShape *side)
 {
   return (PetscBool)(stiffness >= PETSC_INFINITY || side->held == 1);
 }
@@ -292,7 +292,7 @@ static PetscErrorCode Roles_Private(Scene s, const Facets *f, ContactEntry *c)
 {
   const PetscInt group[2] = {c->spec.nonmortar, c->spec.mortar};
   PetscReal      stiffness[2];
-  PetscBool      fast[2];
+  PetscBool      fixed[2];
   SideShape      side[2];
 
   PetscFunctionBegin;
@@ -303,12 +303,12 @@ static PetscErrorCode Roles_Private(Scene s, const Facets *f, ContactEntry *c)
   for (PetscInt k = 0; k < 2; ++k) {
     PetscCall(SideShapeCreate(f->whole, group[k], s->num_boundaries, s->data.boundaries, &side[k]));
     if (rigid[k]) side[k].held = 0; /* its nodes have multipliers */
-    fast[k] = IsFast_Private(stiffness[k], &side[k]);
+    fixed[k] = IsFixed_Private(stiffness[k], &side[k]);
   }
-  PetscCheckInput(c->spec.law == CONTACT_TIED || !fast[0] || !fast[1],
+  PetscCheckInput(c->spec.law == CONTACT_TIED || !fixed[0] || !fixed[1],
                   "%s: supports or rigid bodies hold all of '%s' and of '%s' along their normals; one side of a pair must be free to move under a pressure",
                   NodeWhere(c->node), c->nonmortar, c->mortar);
-  const char *why = fast[0] ? Plain_Private(stiffness, side) : NULL;
+  const char *why = fixed[0] ? Plain_Private(stiffness, side) : NULL;
   if (c->roles != ROLES_GIVEN) why = Exchange_Private(f, c, stiffness, side, &c->spec.cornered);
   for (PetscInt k = 0; k < 2; ++k) PetscCall(SideShapeDestroy(&side[k]));
   c->spec.given = (PetscBool)(c->roles == ROLES_GIVEN);

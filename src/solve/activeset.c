@@ -1,11 +1,11 @@
 /* The active set of a linear step: which nodes bear, stick and slip if gaps, slip and multipliers change as the tangent says. Every node whose state disagrees
    with the step switches at once, which mostly ends after a few passes, but may go in circles: where a fine side faces a coarser one, and round corners within
    a facet, few nodes bear, and each relieves others. Where no pass in s->passes leaves fewer nodes that disagree than any before, or a set comes again, one
-   node alone switches until fewer disagree: that farthest off, or where a set comes again even so, or there may be several solutions, the last one: block
-   principal pivoting with Murty's rule in reserve (J. J. Júdice, F. M. Pires, Computers & Operations Research 21 (1994) 587), which ends for any linear
-   complementarity problem whose matrix is positive definite, but may take many passes. Of the many nodes of a rigid side on one facet of the other few bear,
-   and those are soon found so. Where the tangent has negative pivots beyond those of constraints it is not, and no set may agree: the tangent is made again at
-   fixed directions then (frozennormals.c). Sets may come again although one node at a time switches, with friction above all. Where nothing says that single
+   node alone switches, the last one, until fewer disagree: block principal pivoting with Murty's rule in reserve (J. J. Júdice, F. M. Pires, Computers &
+   Operations Research 21 (1994) 587), which ends for any linear complementarity problem whose matrix is positive definite, but may take many passes: of the
+   many nodes of a rigid side on one facet of the other few bear. So where as many passes more leave no fewer, that farthest off switches, and the last one
+   again where a set comes again. Where the tangent has negative pivots beyond those of constraints it is not, and no set may agree: the tangent is made again
+   at fixed directions then (frozennormals.c). Sets may come again although one node at a time switches, with friction above all. Where nothing says that single
    switches end they do after s->passes in a row that leave no fewer nodes in disagreement. Then the last linear step is taken. */
 #include "solveimpl.h"
 
@@ -13,6 +13,7 @@ typedef struct {
   PetscInt   pass, first; /* number of the pass; of the first whose set may come again */
   PetscInt   least, idle; /* nodes that disagreed, at the fewest; passes since then */
   SwitchRule rule;        /* of the last pass */
+  PetscBool  murty;       /* a set came again although the worst switched: the last one from now on */
 } Passes;
 
 static PetscErrorCode LinearSolve_Private(Solver s, PetscBool again, Vec dx)
@@ -56,6 +57,7 @@ static PetscErrorCode Switch_Private(Solver s, Passes *p, SwitchRule rule, Vec d
   }
   p->least = *disagree;
   p->idle  = 0;
+  p->murty = PETSC_FALSE;
   if (single) p->first = p->pass + 1;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -95,7 +97,8 @@ PetscErrorCode SolverActiveSetSolve_Private(Solver s, PetscBool again, Vec dx, P
       break;
     }
     if (single && (!s->single_switches || (p.idle >= 2 * s->passes && !(convex && frictionless)))) break;
-    const PetscBool worst = (PetscBool)(frictionless && convex && p.rule != SWITCH_LAST && !(seen && p.rule == SWITCH_WORST));
+    p.murty               = (PetscBool)(p.murty || (seen && p.rule == SWITCH_WORST));
+    const PetscBool worst = (PetscBool)(frictionless && convex && p.idle >= 2 * s->passes && !p.murty);
     PetscCall(Switch_Private(s, &p, !single ? SWITCH_ALL : worst ? SWITCH_WORST : SWITCH_LAST, dx, &disagree));
     if (disagree) PetscCall(StopAsked(PetscObjectComm((PetscObject)s->snes), &s->report->stopped));
   }
