@@ -12,23 +12,28 @@
    A motion that meets no resistance has an eigenvalue that is round-off, whose sign says nothing: a shift by as much counts it as stable. */
 #include "solveimpl.h"
 
-/* MUMPS leaves the root of a distributed factor to ScaLAPACK, which does not count pivots, unless ICNTL(13) is 1: so chosen where somebody wants to know, with
-   incompressible material and where unstable equilibria give way to stable ones, on any number of ranks. */
-PetscErrorCode SolverInertiaSetUp_Private(Solver s)
+/* An option of factors before they are made. Asked for afterwards, it is none that nothing used, where nothing is factorised. */
+static PetscErrorCode FactorOption_Private(const char *name, const char *value)
 {
   PetscBool set;
 
   PetscFunctionBegin;
-  s->negative                     = -1;
-  const SceneData *scene          = ProblemGetScene(s->problem);
-  const PetscBool  incompressible = ProblemIsIncompressible(s->problem);
-  const PetscBool  energy         = ProblemHasEnergy(s->problem);
-  PetscCall(PetscOptionsHasName(NULL, NULL, "-mat_mumps_icntl_13", &set));
-  if ((incompressible || (energy && scene->load.stable)) && !set) PetscCall(PetscOptionsSetValue(NULL, "-mat_mumps_icntl_13", "1"));
-  PetscCall(PetscOptionsHasName(NULL, NULL, "-mat_mumps_icntl_13", &set)); /* ours: not one that nothing used, where nothing is factorised */
-  PetscCall(PetscOptionsHasName(NULL, NULL, "-mat_mumps_icntl_33", &set));
-  if (!set) PetscCall(PetscOptionsSetValue(NULL, "-mat_mumps_icntl_33", "1")); /* the determinant */
-  PetscCall(PetscOptionsHasName(NULL, NULL, "-mat_mumps_icntl_33", &set));     /* as above */
+  PetscCall(PetscOptionsHasName(NULL, NULL, name, &set));
+  if (!set) PetscCall(PetscOptionsSetValue(NULL, name, value));
+  PetscCall(PetscOptionsHasName(NULL, NULL, name, &set));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* MUMPS leaves the root of a distributed factor to ScaLAPACK, which does not count pivots, unless ICNTL(13) is 1: so chosen where somebody wants to know, with
+   incompressible material and where unstable equilibria give way to stable ones, on any number of ranks. */
+PetscErrorCode SolverInertiaSetUp_Private(Solver s)
+{
+  const SceneData *scene = ProblemGetScene(s->problem);
+
+  PetscFunctionBegin;
+  s->negative = -1;
+  if (ProblemIsIncompressible(s->problem) || (ProblemHasEnergy(s->problem) && scene->load.stable)) PetscCall(FactorOption_Private("-mat_mumps_icntl_13", "1"));
+  PetscCall(FactorOption_Private("-mat_mumps_icntl_33", "1")); /* the determinant */
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -46,11 +51,23 @@ static PetscErrorCode Factor_Private(PC pc, Mat *F)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* What is left of negative pivots without those of the constraints. */
+static PetscErrorCode Beyond_Private(Problem problem, PetscInt *negative)
+{
+  PetscInt constraints;
+
+  PetscFunctionBegin;
+  PetscCall(ProblemNumNegative(problem, &constraints));
+  PetscCall(PetscInfo(NULL, "%" PetscInt_FMT " negative pivots, %" PetscInt_FMT " constraints\n", *negative, constraints));
+  *negative = PetscMax(0, *negative - constraints);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* LDL^T: negative pivots beyond those of the constraints; -1: the factor does not tell. */
 static PetscErrorCode Pivots_Private(Solver s, PC pc, PetscInt *negative)
 {
   PetscMPIInt size;
-  PetscInt    whole = 0, constraints;
+  PetscInt    whole = 0;
   PetscBool   set;
   Mat         F;
 
@@ -65,10 +82,7 @@ static PetscErrorCode Pivots_Private(Solver s, PC pc, PetscInt *negative)
     PetscCall(Factor_Private(pc, &F));
     if (F) PetscCall(MatMumpsGetInfog(F, 12, negative));
   }
-  if (*negative < 0) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(ProblemNumNegative(s->problem, &constraints));
-  PetscCall(PetscInfo(s->snes, "%" PetscInt_FMT " negative pivots, %" PetscInt_FMT " constraints\n", *negative, constraints));
-  *negative = PetscMax(0, *negative - constraints);
+  if (*negative >= 0) PetscCall(Beyond_Private(s->problem, negative));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -103,18 +117,6 @@ PetscErrorCode SolverInertia_Private(Solver s, PC pc)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Options of the factors before they are made: all pivots are counted, more room. Asked for afterwards, they are none that nothing used. */
-static PetscErrorCode FactorOption_Private(const char *name, const char *value)
-{
-  PetscBool set;
-
-  PetscFunctionBegin;
-  PetscCall(PetscOptionsHasName(NULL, NULL, name, &set));
-  if (!set) PetscCall(PetscOptionsSetValue(NULL, name, value));
-  PetscCall(PetscOptionsHasName(NULL, NULL, name, &set));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode InertiaFactors_Private(MPI_Comm comm, KSP *ksp)
 {
   PC pc;
@@ -135,7 +137,6 @@ PetscErrorCode InertiaFactors_Private(MPI_Comm comm, KSP *ksp)
 PetscErrorCode InertiaFactor_Private(Problem problem, KSP ksp, Mat A, PetscInt *negative)
 {
   PCFailedReason failed;
-  PetscInt       constraints;
   PC             pc;
   Mat            F;
 
@@ -151,8 +152,7 @@ PetscErrorCode InertiaFactor_Private(Problem problem, KSP ksp, Mat A, PetscInt *
   if (failed != PC_NOERROR) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PCFactorGetMatrix(pc, &F));
   PetscCall(MatMumpsGetInfog(F, 12, negative));
-  PetscCall(ProblemNumNegative(problem, &constraints));
-  *negative = PetscMax(0, *negative - constraints);
+  PetscCall(Beyond_Private(problem, negative));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -168,18 +168,12 @@ PetscErrorCode SolverCountUnstable(Solver s, State *state, PetscInt *num)
   PetscInt       sign;
   KSP            ksp;
   Mat            A;
-  Vec            r;
-  ProblemStatus  status;
 
   PetscFunctionBegin;
   *num = -1;
   PetscCall(ProblemStableSign(s->problem, &sign));
   if (s->saddle || sign == 0 || InterfaceSlips(ProblemInterface(s->problem)) || ProblemHasFreeBody(s->problem)) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ProblemSetState(s->problem, state));
-  PetscCall(ProblemSearch(s->problem, state->x));
-  PetscCall(VecDuplicate(state->x, &r));
-  PetscCall(ProblemResidual(s->problem, state->x, NULL, r, &status));
-  PetscCall(VecDestroy(&r));
   PetscCall(ProblemSymmetricPart(s->problem, state->x, state->pressure, PETSC_MACHINE_EPSILON * (PetscReal)order, &is_there));
   if (!is_there) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ProblemGetMatrix(s->problem, &A));
