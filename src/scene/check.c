@@ -1,9 +1,9 @@
 /* The scene against its mesh: names of groups, every cell in a body, every body held, contact pairs of two surfaces. */
 #include "rim.h"
 
-#define AS_RIGID                                                                                                                                               \
-  10 /* times the modulus of the other side: then nothing of its own makes each of many constraints at a corner, in space round an edge, felt                  \
-      */
+/* Times the modulus of the other side: then nothing of a body's own makes each of many constraints at a corner, in space round an edge, felt. */
+#define AS_RIGID 10
+#define LONGER 2 /* times the other side's facets: as nonmortar ones they miss what its nodes do between */
 
 /* What one pass over the facets of the mesh finds. */
 typedef struct {
@@ -248,13 +248,15 @@ static PetscReal Stiffness_Private(Scene s, const Facets *f, PetscInt group)
    nothing of its own makes each of them felt. */
 static const char *Plain_Private(const PetscReal stiffness[2], const SideShape side[2])
 {
+  PetscInt held[2];
+
   for (PetscInt k = 0; k < 2; ++k) {
     if (stiffness[k] >= PETSC_INFINITY) return k ? NULL : "is rigid";
+    held[k] = (side[k].held > 0.5) + (side[k].held == 1);
   }
-  const PetscReal held = side[0].held == 1 || side[1].held == 1 ? 1 : 0.5 + ROUND_LENGTH;
-  if ((side[0].held >= held) != (side[1].held >= held)) return side[0].held >= held ? "is held by supports" : NULL;
+  if (held[0] != held[1]) return held[0] > held[1] ? "is held by supports" : NULL;
   if (stiffness[0] != stiffness[1]) return stiffness[0] > stiffness[1] ? "is the stiffer one" : NULL;
-  return side[0].longest > (2 + ROUND_LENGTH) * side[1].longest ? "has facets more than twice as long" : NULL;
+  return side[0].longest > (LONGER + ROUND_LENGTH) * side[1].longest ? "has facets more than twice as long" : NULL;
 }
 
 /* The same with what it looks like. In the plane the side that has corners carries the multiplier: a corner has a node, which is held on a smooth face wherever
@@ -282,17 +284,11 @@ static const char *Exchange_Private(const Facets *f, const ContactEntry *c, cons
   return why;
 }
 
-/* Does nothing of it move under a pressure? */
-static PetscBool IsFixed_Private(PetscReal stiffness, const SideShape *side)
-{
-  return (PetscBool)(stiffness >= PETSC_INFINITY || side->held == 1);
-}
-
 static PetscErrorCode Roles_Private(Scene s, const Facets *f, ContactEntry *c)
 {
   const PetscInt group[2] = {c->spec.nonmortar, c->spec.mortar};
   PetscReal      stiffness[2];
-  PetscBool      fixed[2];
+  PetscBool      fixed[2]; /* nothing of it moves under a pressure */
   SideShape      side[2];
 
   PetscFunctionBegin;
@@ -303,7 +299,7 @@ static PetscErrorCode Roles_Private(Scene s, const Facets *f, ContactEntry *c)
   for (PetscInt k = 0; k < 2; ++k) {
     PetscCall(SideShapeCreate(f->whole, group[k], s->num_boundaries, s->data.boundaries, &side[k]));
     if (rigid[k]) side[k].held = 0; /* its nodes have multipliers */
-    fixed[k] = IsFixed_Private(stiffness[k], &side[k]);
+    fixed[k] = (PetscBool)(rigid[k] || side[k].held == 1);
   }
   PetscCheckInput(c->spec.law == CONTACT_TIED || !fixed[0] || !fixed[1],
                   "%s: supports or rigid bodies hold all of '%s' and of '%s' along their normals; one side of a pair must be free to move under a pressure",
@@ -316,7 +312,8 @@ static PetscErrorCode Roles_Private(Scene s, const Facets *f, ContactEntry *c)
     c->spec.cornered = (PetscBool)!c->spec.cornered;
     why              = why ? NULL : c->spec.cornered ? "has no corner that presses, the other side has," : "is the stiffer one";
   }
-  c->spec.stiff = (PetscBool)(stiffness[!!why] > AS_RIGID * stiffness[!why]);
+  const PetscInt nonmortar = why ? 1 : 0;
+  c->spec.stiff            = (PetscBool)(stiffness[nonmortar] > AS_RIGID * stiffness[!nonmortar]);
   if (!why) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscPrintf(s->comm, "note: %s: '%s' %s and becomes the mortar side, '%s' the nonmortar side\n", NodeWhere(c->node), c->nonmortar, why, c->mortar));
   c->spec.exchanged = PETSC_TRUE;
