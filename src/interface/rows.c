@@ -391,8 +391,10 @@ static PetscErrorCode Judge_Private(Interface p, const InterfaceSystem *a, Vec d
   }
   PetscCall(VecRestoreArrayRead(dx, &d));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, disagree, 1, MPIU_INT, MPI_SUM, p->comm));
-  PetscCallMPI(MPI_Allreduce(&own, &most, 1, MPIU_REAL, MPI_MAX, p->comm));
-  if (own < most) *one = -1;
+  if (rule == SWITCH_WORST) {
+    PetscCallMPI(MPI_Allreduce(&own, &most, 1, MPIU_REAL, MPI_MAX, p->comm));
+    if (own < most) *one = -1;
+  }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, one, 1, MPI_INT64_T, MPI_MAX, p->comm));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -194,8 +194,10 @@ def test_a_slender_body_yields(run, order, n):
 
 @pytest.mark.parametrize("order,n", [(2, 2), (2, 3), (3, 2), (4, 3)])
 def test_a_rigid_cam_carries(run, order, n):
-    """Facets of the spring as long as that wrap round the cam, whose nodes are held where they are: 3 to 6 % off where the spring's facets leave 10 to 56 %."""
+    """Facets of the spring as long as that wrap round the cam, whose nodes are held where they are: 3 to 6 % off where the spring's facets leave 10 to 56 %.
+    Of its many nodes on one facet few bear, which Murty's rule alone takes thousands of factors to find."""
     summary = run("tests/gauntlet/leaf_cam.yml", "-adapt_tolerance", 0, "-order", order, "-mesh_parameter_n", n).summary
     error = (abs(summary["energy"] - ENERGY) / ENERGY) ** 0.5
     print(summary["estimated_error"], error)
     assert summary["contact"]["lift"]["roles_exchanged"] and error < 0.07 and 0.7 * error < summary["estimated_error"] < 0.1
+    assert summary["factorisations"] < 2000
