@@ -119,8 +119,11 @@ const Option Options[] = {
      "instead of two sides: one physical group, or list of groups, that may meet itself, of one body or several; which facets carry the pressure is chosen",
      PAIR(surface)},
     {"contact.<pair>.roles", KEY_WORD, "", "auto", "auto|given",
-     "auto: a nonmortar side that is stiffer, rigid, or has no corner where the other side has (plane), changes places with the other, and the run begins anew "
-     "so where a corner of the mortar side presses within a facet; given: for comparison, only where it is rigid",
+     "auto: a nonmortar side that is stiffer, as stiff and of facets twice as long, or rigid changes places with the other, unless it alone has a corner, or "
+     "an "
+     "edge rounded within a facet of the other side (plane), and one that has none where the other has; the run begins anew so where a corner of the mortar "
+     "side "
+     "presses within a facet; given: for comparison, only where it is rigid",
      PAIR(roles)},
     {"contact.<pair>.kind", KEY_WORD, "", "contact", "contact|tied",
      "tied: what faces each other at the reference positions is glued, meshes need not match; each side may have facets that face nothing", PAIR(kind)},
