@@ -83,7 +83,7 @@ $(BUILD)/mortise: $(BUILD)/app/main.o $(LIBRARY)
 # bin/ follows whichever build directory was made last.
 $(PROGRAM): $(BUILD)/mortise FORCE
 	@mkdir -p $(@D)
-	@cmp -s $< $@ || cp $< $@
+	@cmp -s $< $@ || { cp $< $@.new && mv $@.new $@; } # jobs that run keep theirs
 
 $(LIBRARY): $(LIBOBJS)
 	@rm -f $@

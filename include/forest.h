@@ -18,10 +18,11 @@ typedef struct _p_Forest *Forest;
 #define FOREST_ENTITIES (PETSC_MAX_INT / FOREST_PARTS) /* most of a forest, which ForestCreate and ForestAdapt see to */
 
 typedef struct {
-  char     file[PETSC_MAX_PATH_LEN]; /* .msh 2.2 or 4.1 */
-  char     told[PETSC_MAX_PATH_LEN]; /* its name in messages, as of the .geo that it was made of; "": file */
-  PetscInt dim;                      /* 2 or 3 */
-  PetscInt refine;                   /* uniform refinements at once */
+  char      file[PETSC_MAX_PATH_LEN]; /* .msh 2.2 or 4.1 */
+  char      told[PETSC_MAX_PATH_LEN]; /* its name in messages, as of the .geo that it was made of; "": file */
+  PetscInt  dim;                      /* 2 or 3 */
+  PetscInt  refine;                   /* uniform refinements at once */
+  PetscBool keep_flat;                /* cells of the plane with a flat corner stay as they are */
 } ForestSpec;
 
 /* Refinement before the first solve: the cells with a facet in a boundary group and within a distance of a place, either may be missing. */
@@ -45,8 +46,8 @@ typedef struct {
   PetscInt  *cell_vertices;            /* [num_cells][2^dim] lexicographic */
   PetscReal *cell_geometry;            /* [num_cells][(q+1)^dim][3] positions at equispaced nodes, lexicographic, q = geometry_order */
   PetscInt  *cell_body;                /* [num_cells] index of the body, -1: in none (input error reported by the scene with the cell's place) */
-  PetscInt   num_straight;             /* in the plane: cells that would be inverted with the curved sides of the file, and have straight ones … */
-  PetscInt   first_straight;           /* … the first of them */
+  PetscInt   num_opened;               /* on rank 0, in the plane: cells that had a flat corner and share it with a neighbour now … */
+  PetscReal  first_opened[3];          /* … where the first of them was */
   PetscBool  from_simplices;           /* in space: its cells were made out of tetrahedra */
   PetscInt   num_fields;               /* views $ElementData of three components in the file */
   char (*field_name)[MORTISE_NAME];    /* [num_fields] */

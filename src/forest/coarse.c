@@ -198,50 +198,6 @@ static PetscBool IsSoundStraight_Private(const CoarseMesh *mesh, PetscInt cell, 
   return (PetscBool)(ForestCoarseJacobianSign(&one, 0) > 0);
 }
 
-/* How far a side of a cell in the plane is from its chord, over that one's length; side as the places of closures: 1 3 5 7 (bottom, left, right, top). */
-static PetscReal Bulge_Private(const CoarseMesh *mesh, PetscInt cell, PetscInt side)
-{
-  const PetscInt   p = mesh->geometry_order, q = p + 1, step = side == 1 || side == 7 ? 1 : q, start = side == 5 ? p : side == 7 ? p * q : 0;
-  const PetscReal *a = mesh->cell_geometry + 3 * (q * q * cell + start), *b = a + 3 * p * step, chord[2] = {b[0] - a[0], b[1] - a[1]};
-  PetscReal        most = 0;
-
-  for (PetscInt k = 1; k < p; ++k) {
-    const PetscReal *x = a + 3 * k * step;
-    most               = PetscMax(most, PetscAbsReal(chord[0] * (x[1] - a[1]) - chord[1] * (x[0] - a[0])));
-  }
-  return most / (PetscSqr(chord[0]) + PetscSqr(chord[1]));
-}
-
-/* May the sides of a cell be straight instead? In the plane, where curved ones are outer ones, and arcs: of half a circle the middle is half of the chord away,
-   and a file in which it is further is wrong. */
-static PetscBool IsRound_Private(const Coarse *coarse, PetscInt cell)
-{
-  const PetscInt *closure = coarse->closure + coarse->closure_offset[coarse->first[coarse->mesh.dim] + cell];
-  PetscBool       curved  = PETSC_FALSE;
-
-  for (PetscInt side = 1; side < 9 && coarse->mesh.dim == 2; side += 2) {
-    const PetscReal bulge = Bulge_Private(&coarse->mesh, cell, side);
-
-    if (bulge <= ROUND_LENGTH) continue;
-    if (bulge > 0.5 || coarse->facet_cell[closure[side] - coarse->first[1]][1] >= 0) return PETSC_FALSE;
-    curved = PETSC_TRUE;
-  }
-  return curved;
-}
-
-/* A quadrilateral out of a triangle two of whose sides lie on one arc has a corner of 180 degrees, unless its sides are straight: those inside a body are. */
-static void Straighten_Private(CoarseMesh *mesh, PetscInt cell, const PetscReal corner[8][3])
-{
-  const PetscInt q  = mesh->geometry_order + 1;
-  PetscReal     *to = mesh->cell_geometry + 3 * q * q * cell;
-
-  for (PetscInt k = 0; k < q * q; ++k) {
-    const PetscReal s = (PetscReal)(k % q) / (PetscReal)(q - 1), t = (PetscReal)(k / q) / (PetscReal)(q - 1);
-    for (PetscInt c = 0; c < 3; ++c) to[3 * k + c] = (1 - t) * ((1 - s) * corner[0][c] + s * corner[1][c]) + t * ((1 - s) * corner[2][c] + s * corner[3][c]);
-  }
-  if (mesh->num_straight++ == 0) mesh->first_straight = cell;
-}
-
 static PetscErrorCode CheckCells_Private(Coarse *coarse)
 {
   CoarseMesh *mesh = &coarse->mesh;
@@ -251,10 +207,6 @@ static PetscErrorCode CheckCells_Private(Coarse *coarse)
   for (PetscInt c = 0; c < mesh->num_cells; ++c) {
     if (ForestCoarseJacobianSign(mesh, c) > 0) continue;
     const PetscBool straight = (PetscBool)(mesh->geometry_order > 1 && IsSoundStraight_Private(mesh, c, corner));
-    if (straight && IsRound_Private(coarse, c)) {
-      Straighten_Private(mesh, c, (const PetscReal(*)[3])corner);
-      continue;
-    }
     CellCentre_Private(mesh, c, X);
     PetscCall(CheckSize_Private(mesh, c));
     return ErrorInput("mesh cell %" PetscInt_FMT " of %" PetscInt_FMT

@@ -51,6 +51,17 @@ static PetscErrorCode Broadcast_Private(MPI_Comm comm, CoarseMesh *mesh, PetscIn
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static PetscErrorCode TellOpened_Private(MPI_Comm comm, const CoarseMesh *mesh)
+{
+  PetscFunctionBegin;
+  if (!mesh->num_opened) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscPrintf(comm,
+                        "note: mesh cells with a flat corner, as where two sides lie on one curve: %" PetscInt_FMT " of %" PetscInt_FMT
+                        ", the first at (%.4g, %.4g); four are made of each and a neighbour (mesh.keep_flat: true leaves them)\n",
+                        mesh->num_opened, mesh->num_cells - 2 * mesh->num_opened, (double)mesh->first_opened[0], (double)mesh->first_opened[1]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode ForestCreate(MPI_Comm comm, const ForestSpec *spec, Forest *forest)
 {
   char        message[1024] = "";
@@ -62,6 +73,7 @@ PetscErrorCode ForestCreate(MPI_Comm comm, const ForestSpec *spec, Forest *fores
   PetscFunctionBegin;
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
   if (rank == 0) PetscCall(ForestReadGmsh(spec, &mesh, &num_facets, &facet_vertices, &facet_groups, sizeof(message), message));
+  if (rank == 0 && !message[0] && !spec->keep_flat) PetscCall(ForestOpenFlatCorners(&mesh, num_facets, facet_vertices));
   PetscCallMPI(MPI_Bcast(message, sizeof(message), MPI_CHAR, 0, comm));
   if (message[0]) {
     PetscCall(ForestCoarseMeshDestroy(&mesh));
@@ -69,6 +81,7 @@ PetscErrorCode ForestCreate(MPI_Comm comm, const ForestSpec *spec, Forest *fores
     PetscCall(PetscFree(facet_groups));
     return ErrorInput("%s", message);
   }
+  PetscCall(TellOpened_Private(comm, &mesh));
   PetscCall(Broadcast_Private(comm, &mesh, &num_facets, &facet_vertices, &facet_groups));
   const double cells = ldexp((double)mesh.num_cells, (int)(mesh.dim * spec->refine));
   PetscCheckInput(cells <= FOREST_ENTITIES >> mesh.dim, /* a cell brings 2^dim entities at least */

@@ -22,22 +22,6 @@ PetscErrorCode ForestCreateFromTree(MPI_Comm comm, Coarse *coarse, Tree *tree, P
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode TellStraight_Private(MPI_Comm comm, const CoarseMesh *mesh)
-{
-  const PetscReal half[3] = {0.5, 0.5, 0.5};
-  PetscReal       X[3];
-
-  PetscFunctionBegin;
-  if (!mesh->num_straight) PetscFunctionReturn(PETSC_SUCCESS);
-  ForestCoarseMapPoint(mesh, mesh->first_straight, half, X, NULL);
-  PetscCall(PetscPrintf(comm,
-                        "note: %" PetscInt_FMT " of %" PetscInt_FMT
-                        " mesh cells would be inverted with their curved sides and have straight ones, the first at (%.4g, %.4g): "
-                        "smaller cells there, or Recombine Surface, keep the curve\n",
-                        mesh->num_straight, mesh->num_cells, (double)X[0], (double)X[1]));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode ForestCreateFromCoarse(MPI_Comm comm, CoarseMesh *mesh, PetscInt num_facets, const PetscInt facet_vertices[], const uint64_t facet_groups[],
                                       PetscInt refine, Forest *forest)
 {
@@ -46,7 +30,6 @@ PetscErrorCode ForestCreateFromCoarse(MPI_Comm comm, CoarseMesh *mesh, PetscInt 
 
   PetscFunctionBegin;
   PetscCall(ForestCoarseCreate(mesh, num_facets, facet_vertices, facet_groups, &coarse));
-  PetscCall(TellStraight_Private(comm, &coarse->mesh));
   PetscCall(ForestTreeCreate(coarse->mesh.num_cells, &tree));
   for (PetscInt pass = 0, start = 0; pass < refine; ++pass) {
     const PetscInt end = tree.num;

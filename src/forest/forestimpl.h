@@ -119,6 +119,12 @@ static inline int8_t ForestCoarseKey(const Coarse *coarse, PetscInt cell, const 
 /* Sign of the Jacobian determinant all over the cell: 1, -1, or 0 when it changes sign or vanishes. (Determinants of a degree above 11: at sample points.) */
 PetscInt ForestCoarseJacobianSign(const CoarseMesh *, PetscInt cell);
 
+/* ---- flat.c ------------------------------------------------------------------------------------------------------- */
+
+/* Cells of the plane with a flat corner share it with a neighbour by two cells more, where that makes them sound. facet_vertices[num_facets][2]: sides that
+   boundary groups name, which stay. Not collective. */
+PetscErrorCode ForestOpenFlatCorners(CoarseMesh *, PetscInt num_facets, const PetscInt facet_vertices[]);
+
 /* ---- tree.c -------------------------------------------------------------------------------------------------------- */
 
 typedef struct {

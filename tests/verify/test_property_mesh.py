@@ -54,24 +54,45 @@ Physical Surface("b") = {1}; Physical Curve("arc") = {1}; Physical Curve("flat")
 
 @pytest.mark.parametrize("order", [2, 3, 4])
 def test_triangle_with_two_sides_on_one_arc(run, tmp_path, order):
-    """It becomes quadrilaterals of which one has a corner of 180 degrees: inverted with the curved sides of orders 3 and 4, so its sides are straight, which is told."""
+    """It becomes quadrilaterals of which one has a corner of 180 degrees, inverted at orders 3 and 4: opened with a neighbour, which is told; or kept, and then refused if inverted."""
     (tmp_path / "s.geo").write_text(SEGMENT)
     scene = {"mesh": {"file": "s.geo", "order": order}, "model": "plane_strain", "order": 2, "body": {"b": {"material": "m"}}, "load": {"step": 1},
              "material": {"m": {"law": "neo_hookean", "E": 1, "nu": 0.3}}, "boundary": {"flat": {"fix": "xy"}, "arc": {"pressure": 0.01}}}
     result = run("s.yml", text=json.dumps(scene))
-    assert result.returncode == 0 and ("have straight ones" in result.stdout) == (order > 2), result
-    assert result.summary["energy"] == pytest.approx(1.14e-5, rel=0.03)
+    assert result.returncode == 0 and "flat corner, as where two sides lie on one curve: 1 of 3, the first at (0.7071, 0.7071)" in result.stdout, result
+    assert result.summary["energy"] == pytest.approx(1.14e-5, rel=0.03) and result.summary["cells"] == 5
+    kept = run("s.yml", "-mesh_keep_flat", "true", text=json.dumps(scene))
+    assert (kept.returncode == 1 and "with straight sides it would be" in kept.stderr) if order > 2 else kept.summary["cells"] == 3, kept
 
 
 def test_arc_between_two_bodies_stays(run, tmp_path):
-    """The same where another body lies on the arc, whose sides would no longer be those of the first: refused."""
+    """The same where another body lies on the arc: both keep its curve."""
     (tmp_path / "s.geo").write_text(SEGMENT + """Point(4) = {2, 0, 0}; Point(5) = {0, 2, 0}; Circle(3) = {4, 3, 5}; Line(4) = {1, 4}; Line(5) = {2, 5}; Transfinite Curve {3} = 3;
 Curve Loop(2) = {4, 3, -5, -1}; Plane Surface(2) = {2}; Transfinite Curve {4, 5} = 2; Transfinite Surface {2}; Recombine Surface {2}; Physical Surface("c") = {2};
 """)
     scene = {"mesh": {"file": "s.geo", "order": 3}, "model": "plane_strain", "body": {name: {"material": "m"} for name in "bc"}, "load": {"step": 1},
              "material": {"m": {"law": "neo_hookean", "E": 1, "nu": 0.3}}, "boundary": {"flat": {"fix": "xy"}}}
     result = run("s.yml", text=json.dumps(scene))
-    assert result.returncode == 1 and "is inverted or degenerate" in result.stderr and "with straight sides it would be" in result.stderr, result
+    assert result.returncode == 0 and "two sides lie on one curve: 1 of" in result.stdout, result
+
+
+ROUND = """Point(1) = {0, 0, 0}; Point(2) = {5, 0, 0}; Point(3) = {5, 4, 0}; Point(4) = {4.25, 4, 0}; Point(5) = {4.78033008589, 4.53033008589, 0}; Point(6) = {4.25, 4.75, 0}; Point(7) = {0, 4.75, 0};
+Line(1) = {1, 2}; Line(2) = {2, 3}; Circle(3) = {3, 4, 5}; Circle(4) = {5, 4, 6}; Line(5) = {6, 7}; Line(6) = {7, 1}; Curve Loop(1) = {1:6}; Plane Surface(1) = {1};
+Transfinite Curve {1, 6} = 7; Transfinite Curve {2, 5} = 6; Transfinite Curve {3, 4} = 2; Transfinite Surface {1} = {1, 2, 5, 7};
+Point(11) = {0, 4.75, 0}; Point(12) = {9, 4.75, 0}; Point(13) = {9, 6, 0}; Point(14) = {0, 6, 0}; Line(11) = {11, 12}; Line(12) = {12, 13}; Line(13) = {13, 14}; Line(14) = {14, 11};
+Curve Loop(2) = {11:14}; Plane Surface(2) = {2}; Transfinite Curve {11:14} = 2; Transfinite Surface {2}; Recombine Surface {:};
+Physical Surface("billet") = {1}; Physical Surface("die") = {2}; Physical Curve("foot") = {1}; Physical Curve("axis") = {6}; Physical Curve("top") = {3, 4, 5}; Physical Curve("face") = {11};
+"""
+
+
+def test_flat_corner_under_a_die(run, tmp_path):
+    """Metal pressed flat where a cell has a corner of 180 degrees, in the middle of a rounded edge: energy as at half the tolerance (132.767 and 132.779, opened and kept)."""
+    (tmp_path / "s.geo").write_text(ROUND)
+    scene = {"mesh": {"file": "s.geo", "order": 2}, "model": "axisymmetric", "order": 2, "body": {"billet": {"material": "metal"}, "die": {"material": "tool", "motion": {"y": -0.8}}},
+             "material": {"metal": {"law": "j2", "E": 210000, "nu": 0.3, "yield": 300, "hardening": 500}, "tool": {"law": "rigid"}},
+             "boundary": {"axis": {"fix": "x"}, "foot": {"fix": "y"}}, "contact": {"c": {"nonmortar": "top", "mortar": "face"}}, "load": {"step": 0.25}, "adapt": {"tolerance": 0.03}}
+    error = [abs(run("s.yml", "-mesh_keep_flat", keep, text=json.dumps(scene)).summary["energy"] / 132.77 - 1) for keep in ("false", "true")]
+    assert error[0] < 1.5e-4 and error[1] > 5e-4, error
 
 
 def test_refined_near_a_point(run):
