@@ -48,7 +48,8 @@ typedef struct {
   PetscInt         step_cuts, newton_iterations, set_changes, single_switches, set_cycles, factorisations, single_failures;
   PetscInt         descent_iterations;               /* tangents of descents, besides Newton's */
   PetscInt         unstable, judged;                 /* accepted though unstable; equilibria found of which it is known whether they are stable */
-  PetscInt         stabilised;                       /* that took the place of unstable ones */
+  PetscInt         stabilised;                       /* that took the place of unstable ones … */
+  PetscReal        stabilised_t;                     /* … the last of them at this time */
   PetscInt         begun_anew;                       /* runs before this one that went on with other roles of contact pairs */
   PetscInt         folded_left;                      /* cells that were to be split and stayed as they were, for they are folded at a corner */
   PetscInt         unstable_now;                     /* directions in which the last equilibrium found is unstable, 0: none is known */

@@ -179,6 +179,7 @@ PetscErrorCode AppAdapt(App *app)
     PetscCall(ReportPass_Private(app, iterations, enough));
     if (enough) break;
     PetscCall(Pass_Private(app, &layers, &iterations, &more, &gave_up));
+    judged = PETSC_FALSE;
     if (more) continue;
     if (app->path.stopped) break;
     app->last.accepted          = PETSC_TRUE;

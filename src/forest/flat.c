@@ -1,7 +1,7 @@
-/* Cells of the plane with a flat corner, as a mesh generator makes them that judges cells by their chords: where two sides of a cell lie on one smooth curve, the
-   angle between them is 180 degrees once they are curved. The map of the cell is singular there, and the smaller cells that it is split into at that corner are
-   all so: the error does not fall, and the least strain turns one inside out. Such a cell (A B C D, flat at B) and its neighbour beyond a side that B is not on
-   (D C E F) become four, with two vertices more inside (O, P), and a line from B into the body:
+/* Cells of the plane with a flat corner, as a mesh generator makes them that judges cells by their chords: where two sides of a cell lie on one smooth curve,
+   the angle between them is 180 degrees once they are curved. The map of the cell is singular there, and the smaller cells that it is split into at that corner
+   are all so: the error does not fall, and the least strain turns one inside out. Such a cell (A B C D, flat at B) and its neighbour beyond a side that B is
+   not on (D C E F) become four, with two vertices more inside (O, P), and a line from B into the body:
 
         A--B--C--E            A--B--C--E
         |     |  |            |  |  |  |
@@ -12,7 +12,9 @@
    No vertex, side or group of the mesh changes but the side C-D. */
 #include "forestimpl.h"
 
-#define FLAT 165 /* degrees; of straight cells of good generators no corner has as many, of arcs cut in two chords each has 180 less half of a chord's angle */
+#define FLAT                                                                                                                                                   \
+  165 /* degrees; of straight cells of good generators no corner has as many, of arcs cut in two chords each has 180 less half of a chord's angle              \
+       */
 
 enum { FLAT_NODES = FOREST_MAX_ORDER + 1 };
 
@@ -23,7 +25,7 @@ typedef struct {
 } Ring;
 
 typedef struct {
-  PetscReal worst;    /* the largest angle of the four, degrees */
+  PetscReal worst; /* the largest angle of the four, degrees */
   PetscInt  neighbour;
   PetscBool mirrored; /* the neighbour is the one beyond D-A */
   Ring      ring[4];
@@ -34,7 +36,7 @@ typedef struct {
   PetscInt *first, *cell;
 } Around;
 
-static const PetscInt Corner[4]  = {0, 1, 3, 2}; /* round the cell, of the lexicographic ones */
+static const PetscInt Corner[4]   = {0, 1, 3, 2}; /* round the cell, of the lexicographic ones */
 static const PetscInt Place[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
 
 static PetscReal *Node_Private(const CoarseMesh *mesh, PetscInt cell, PetscInt side, PetscInt k)
@@ -70,8 +72,9 @@ static void PutRing_Private(CoarseMesh *mesh, PetscInt cell, const Ring *ring, P
       const PetscReal  s = (PetscReal)a / (PetscReal)q, t = (PetscReal)b / (PetscReal)q;
       const PetscReal *below = ring->side[0][a], *above = ring->side[2][q - a], *left = ring->side[3][q - b], *right = ring->side[1][b];
       for (PetscInt c = 0; c < 3; ++c) {
-        const PetscReal corners = (1 - t) * ((1 - s) * ring->side[0][0][c] + s * ring->side[1][0][c]) + t * ((1 - s) * ring->side[3][0][c] + s * ring->side[2][0][c]);
-        X[3 * (n * j + i) + c]  = (1 - t) * below[c] + t * above[c] + (1 - s) * left[c] + s * right[c] - corners;
+        const PetscReal corners =
+            (1 - t) * ((1 - s) * ring->side[0][0][c] + s * ring->side[1][0][c]) + t * ((1 - s) * ring->side[3][0][c] + s * ring->side[2][0][c]);
+        X[3 * (n * j + i) + c] = (1 - t) * below[c] + t * above[c] + (1 - s) * left[c] + s * right[c] - corners;
       }
     }
 }
@@ -127,8 +130,8 @@ static PetscBool IsNamed_Private(PetscInt v, PetscInt w, PetscInt num_facets, co
 static PetscInt Neighbour_Private(const CoarseMesh *mesh, const Around *around, PetscInt cell, PetscInt v, PetscInt w, PetscInt *place)
 {
   for (PetscInt i = around->first[v]; i < around->first[v + 1]; ++i) {
-    const PetscInt  other   = around->cell[i], *vertex = mesh->cell_vertices + 4 * other;
-    PetscBool       touches = PETSC_FALSE;
+    const PetscInt other = around->cell[i], *vertex = mesh->cell_vertices + 4 * other;
+    PetscBool      touches = PETSC_FALSE;
     if (other == cell || mesh->cell_body[other] != mesh->cell_body[cell]) continue;
     for (PetscInt s = 0; s < 4; ++s) {
       touches = (PetscBool)(touches || vertex[Corner[s]] == w);
@@ -156,10 +159,10 @@ static void Rings_Private(PetscInt q, const Ring *r, const Ring *n, PetscInt new
     O[c] = (3 * (B[c] + D[c]) + C[c] + F[c]) / 8;
     P[c] = (3 * (C[c] + F[c]) + B[c] + D[c]) / 8;
   }
-  const PetscInt  v[8] = {r->vertex[3], r->vertex[0], r->vertex[1], r->vertex[2], n->vertex[1], n->vertex[2], new_vertex, new_vertex + 1};
-  const PetscReal *at[8]         = {r->side[3][0], B, C, D, n->side[1][0], F, O, P}; /* A B C D E F O P */
-  static const PetscInt of[4][4] = {{0, 1, 6, 3}, {1, 2, 7, 6}, {2, 4, 5, 7}, {6, 7, 5, 3}};
-  const PetscReal (*const kept[4][4])[3] = {{r->side[3], NULL, NULL, r->side[2]}, {r->side[0]}, {n->side[0], n->side[1]}, {NULL, NULL, n->side[2]}};
+  const PetscInt        v[8]            = {r->vertex[3], r->vertex[0], r->vertex[1], r->vertex[2], n->vertex[1], n->vertex[2], new_vertex, new_vertex + 1};
+  const PetscReal      *at[8]           = {r->side[3][0], B, C, D, n->side[1][0], F, O, P}; /* A B C D E F O P */
+  static const PetscInt of[4][4]        = {{0, 1, 6, 3}, {1, 2, 7, 6}, {2, 4, 5, 7}, {6, 7, 5, 3}};
+  const PetscReal(*const kept[4][4])[3] = {{r->side[3], NULL, NULL, r->side[2]}, {r->side[0]}, {n->side[0], n->side[1]}, {NULL, NULL, n->side[2]}};
 
   for (PetscInt k = 0; k < 4; ++k)
     for (PetscInt s = 0; s < 4; ++s) {

@@ -13,7 +13,7 @@ PetscErrorCode PathDescend(Path *p, const PathLoop *load, PetscReal to, const St
 
   PetscFunctionBegin;
   p->work = (StepWork){0};
-  PetscCall(PathRestore(p, &l->accepted));
+  PetscCall(PathRestore(p, guess ? guess : &l->accepted));
   PetscCall(PathFrom(p, &from));
   PetscCall(load->metric->set(p, load, to));
   PetscCall(SolverDescend(l->solver, &l->state, report));
@@ -94,6 +94,7 @@ PetscErrorCode PathStabilise(Path *p, PetscBool *changed)
   PetscCall(Leave_Private(p, &fall, &neutral, changed));
   if (*changed) {
     p->unstable_now = 0;
+    p->stabilised_t = l->state.t;
     if (p->stabilised++ == 0)
       PetscCall(PetscPrintf(
           ForestComm(l->forest),

@@ -37,9 +37,10 @@ static PetscErrorCode Unfreeze_Private(Path *p, const PathLoop *load, PetscReal 
 
 /* ---- from what was carried over to another mesh ------------------------------------------------------------------------------------ */
 
+/* The way of the load leads to the unstable equilibrium that was left. */
 static PetscBool IsCarried_Private(const Path *p, const State *guess)
 {
-  return (PetscBool)(guess != NULL);
+  return (PetscBool)(guess && !(p->stabilised > 0 && p->stabilised_t == guess->t));
 }
 
 /* ---- from bodies at rest that overlap ----------------------------------------------------------------------------------------------- */

@@ -5,8 +5,8 @@
 
 typedef struct {
   PetscInt q, start; /* geometry order; corner of the flat cell that comes first */
-  PetscInt sides;           /* 1: neighbour beyond C-D, 2: beyond D-A, 3: both */
-  PetscInt bodies;          /* 2: the neighbours are another body's */
+  PetscInt sides;    /* 1: neighbour beyond C-D, 2: beyond D-A, 3: both */
+  PetscInt bodies;   /* 2: the neighbours are another body's */
 } Case;
 
 /*  0 1 2: A B C on the circle at 135, 90, 45 degrees; 3: D; 4 5: E F beyond C-D; 6 7: G (on the circle), H beyond D-A. */
@@ -16,7 +16,7 @@ static void SidePoint(PetscInt v, PetscInt w, PetscReal s, PetscReal X[2])
 {
   const PetscReal *a = corner[v], *b = corner[w], ra = a[0] * a[0] + a[1] * a[1], rb = b[0] * b[0] + b[1] * b[1];
   const PetscReal  from = PetscAtan2Real(a[1], a[0]), to = PetscAtan2Real(b[1], b[0]), angle = from + s * (to - from);
-  const PetscBool  arc  = (PetscBool)(PetscAbsReal(ra - 1) < 1e-9 && PetscAbsReal(rb - 1) < 1e-9);
+  const PetscBool  arc = (PetscBool)(PetscAbsReal(ra - 1) < 1e-9 && PetscAbsReal(rb - 1) < 1e-9);
 
   X[0] = arc ? PetscCosReal(angle) : a[0] + s * (b[0] - a[0]);
   X[1] = arc ? PetscSinReal(angle) : a[1] + s * (b[1] - a[1]);
@@ -31,7 +31,7 @@ static void PutCell(CoarseMesh *m, const PetscInt ring[4])
   for (PetscInt j = 0; j <= q; ++j)
     for (PetscInt i = 0; i <= q; ++i) {
       const PetscReal s = (PetscReal)i / q, t = (PetscReal)j / q;
-      PetscReal       side[4][2], *X = m->cell_geometry + 3 * ((m->num_cells * (q + 1) + j) * (q + 1) + i);
+      PetscReal       side[4][2], *X          = m->cell_geometry + 3 * ((m->num_cells * (q + 1) + j) * (q + 1) + i);
       SidePoint(ring[0], ring[1], s, side[0]);
       SidePoint(ring[1], ring[2], t, side[1]);
       SidePoint(ring[3], ring[2], s, side[2]);

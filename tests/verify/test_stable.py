@@ -208,3 +208,12 @@ def test_times_are_the_decimals_they_are_meant_to_be(run, tmp_path):
     scene["boundary"]["x1"]["displacement"]["x"] = "t > 0.3 ? -0.01 : 0"
     result = solved(run, json.dumps(scene), "-load_end", 0.35)
     assert [row["reaction.x1.x"] != 0 for row in result.history] == 6 * [False] + [True], result
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_stays_stable_on_finer_meshes(run, ranks):
+    """A slender strut that buckles twice between walls, in one step: 150 iterations down from the straight state, and on the finer mesh down from what was found on the coarser
+    one, for the way of the load leads to the straight state again (four times the energy; it was accepted)."""
+    result = run("tests/gauntlet/walls.yml", "-load_step", "1", "-adapt_tolerance", "0.02", "-output_fields", "false", ranks=ranks)
+    assert result.returncode == 0 and result.summary["stabilised"] == 1 and result.summary["unstable_equilibria"] == 0, result
+    assert result.summary["energy"] == pytest.approx(16.357, rel=1e-3)
