@@ -12,10 +12,13 @@
    facets see each other at the reference positions along a straight line that does not leave the body. What met across a void does not: between bore and bore,
    or limb and limb, it does.
 
-   Thicknesses are those at the reference positions, along directions that turn with the facets. */
+   Thicknesses are those at the reference positions, along directions that turn with the facets. They are measured from places inside facets, not at their ends:
+   at a corner that two facets share a ray leaves by one of them at once (hull.c), also at a re-entrant one, where behind it there is body. */
 #include "kernelimpl.h"
 
-enum { MOST_SIDES = 32, LEVELS = 6 }; /* of the search for the ray to the middle of the mortar facet: to 1/32 of the facet */
+enum { MOST_SIDES = 32, LEVELS = 6 }; /* of the search for the ray to the middle of the mortar facet: to 1/64 of the facet */
+
+#define INSIDE (1 - 1. / (1 << LEVELS)) /* the outermost places of a facet that this search tries */
 
 static void Axes_Private(PetscInt dim, const PetscReal x[4][3], PetscReal axis[3][3])
 {
@@ -65,7 +68,7 @@ static void Sum_Private(const PetscReal x[4][3], const PetscReal N[4], PetscReal
   for (int c = 0; c < 3; c++) y[c] = N[0] * x[0][c] + N[1] * x[1][c] + N[2] * x[2][c] + N[3] * x[3][c];
 }
 
-/* The place on the facet, taken for a parallelogram, that is nearest to y along its sides. */
+/* The place inside the facet, taken for a parallelogram, that is nearest to y along its sides. */
 static void Locate_Private(const FacetCorners *p, const PetscReal y[3], PetscReal xi[2])
 {
   PetscReal g[2][3] = {{0, 0, 0}, {0, 0, 0}}, r[3], a[2][2], b[2], det;
@@ -85,7 +88,7 @@ static void Locate_Private(const FacetCorners *p, const PetscReal y[3], PetscRea
   det   = a[0][0] * a[1][1] - a[0][1] * a[1][0];
   xi[0] = p->dim == 2 ? b[0] / a[0][0] : (b[0] * a[1][1] - b[1] * a[0][1]) / det;
   xi[1] = p->dim == 2 ? 0 : (b[1] * a[0][0] - b[0] * a[1][0]) / det;
-  for (int i = 0; i < 2; i++) xi[i] = PetscMax(-1, PetscMin(1, xi[i]));
+  for (int i = 0; i < 2; i++) xi[i] = PetscMax(-INSIDE, PetscMin(INSIDE, xi[i]));
 }
 
 /* The place X of xi on the facet of a body, at the reference positions, and what was there the direction d of now: it turns with the facet. */
@@ -155,7 +158,7 @@ static PetscReal Pass_Private(const FacetCorners *s, const PetscReal xi[2], cons
 /* The place whose ray passes nearest to y, by trial, since rays may cross behind the facet; its ray. */
 static void Aim_Private(const FacetCorners *s, const PetscReal y[3], PetscReal xi[2], PetscReal x[3], PetscReal n[3])
 {
-  PetscReal least = PETSC_MAX_REAL, step = 1;
+  PetscReal least = PETSC_MAX_REAL, step = 0.5;
 
   xi[0] = xi[1] = 0;
   for (int level = 0; level < LEVELS; level++, step *= 0.5) {
@@ -163,8 +166,7 @@ static void Aim_Private(const FacetCorners *s, const PetscReal y[3], PetscReal x
 
     for (int k = 0; k < (s->dim == 2 ? 3 : 9); k++) {
       if (level > 0 && k == (s->dim == 2 ? 1 : 4)) continue; /* where it stands */
-      const PetscReal at[2]    = {PetscMax(-1, PetscMin(1, from[0] + (k % 3 - 1) * step)),
-                               s->dim == 2 ? 0 : PetscMax(-1, PetscMin(1, from[1] + (k / 3 - 1) * step))};
+      const PetscReal at[2]    = {from[0] + (k % 3 - 1) * step, s->dim == 2 ? 0 : from[1] + (k / 3 - 1) * step};
       const PetscReal distance = Pass_Private(s, at, y, x, n);
 
       if (distance < least) least = distance, xi[0] = at[0], xi[1] = at[1];

@@ -604,7 +604,50 @@ static void Strip(void **state)
   ChainDestroy(&lower);
 }
 
+/* An angle section of thickness 1, its contour in edges of length 1, whose upright limb bends a little to either side. Facets of the contour, which may meet
+   itself, see nothing through their own limb: not at the re-entrant corner (1, 1) either, behind which there is body whichever of its two facets a ray starts
+   from. How many pairs of a facet there and one of the outer side of the same limb are candidates. */
+static PetscInt ThroughLimb(PetscReal bend)
+{
+  static const PetscReal place[20][2] = {{0, 0}, {1.2, 0}, {2.2, 0}, {3.2, 0}, {4.2, 0}, {5, 0}, {5, 1},   {4, 1},   {3, 1},   {2, 1},
+                                         {1, 1}, {1, 2},   {1, 3},   {1, 4},   {1, 5},   {0, 5}, {0, 4.2}, {0, 3.2}, {0, 2.2}, {0, 1.2}};
+  PetscInt              *parts = NULL, part[20] = {0}, through = 0;
+  PetscReal             *X = NULL;
+  const PetscInt        *start, *candidate;
+  ContactHull            hull;
+  ContactPair            pair;
+  Chain                  section;
+
+  CHECK_CALL(PetscCalloc1(20, &parts));
+  CHECK_CALL(PetscMalloc1(80, &X));
+  ChainCreate(&section, 20, PETSC_TRUE);
+  for (PetscInt i = 0; i < 20; i++)
+    for (int c = 0; c < 2; c++) section.x[2 * i + c] = place[i][c];
+  for (PetscInt e = 0; e < 20; e++)
+    for (int k = 0; k < 4; k++) X[4 * e + k] = section.x[2 * section.edges[2 * e + k / 2] + k % 2];
+  ChainReference(&section);
+  CHECK_CALL(ContactHullCreate(2, 20, parts, X, &hull));
+  for (PetscInt i = 0; i < 20; i++) section.x[2 * i] -= bend * PetscSqr(place[i][1]), section.x[2 * i + 1] += bend * place[i][0] * place[i][1];
+  PairCreate(PETSC_FALSE, PETSC_FALSE, &pair);
+  ContactPairSetHull(pair, hull, part, part, 1);
+  SearchAll(pair, &section, &section, 2, 0.01);
+  ContactPairGetCandidates(pair, &start, &candidate);
+  for (PetscInt i = 6; i < 14; i++)
+    for (PetscInt k = start[i]; k < start[i + 1]; k++) through += i < 10 ? candidate[k] < 5 : candidate[k] > 14;
+  CHECK_CALL(ContactPairDestroy(&pair));
+  CHECK_CALL(ContactHullDestroy(&hull));
+  ChainDestroy(&section);
+  return through;
+}
+
+static void Limb(void **state)
+{
+  const PetscReal bend[] = {-0.05, -1e-3, -1e-6, 0, 1e-6, 1e-3, 0.05};
+
+  for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(bend); k++) assert_int_equal(ThroughLimb(bend[k]), 0);
+}
+
 CONTACT_TEST_MAIN("contact: search", cmocka_unit_test(BruteForce), cmocka_unit_test(Margin), cmocka_unit_test(Near), cmocka_unit_test(Groove),
                   cmocka_unit_test(Layers), cmocka_unit_test(Shoulder), cmocka_unit_test(Behind), cmocka_unit_test(Grazing), cmocka_unit_test(Trials),
-                  cmocka_unit_test(Grazes), cmocka_unit_test(FarSides), cmocka_unit_test(Strip), cmocka_unit_test(LargeSliding), cmocka_unit_test(Empty),
-                  cmocka_unit_test(Time))
+                  cmocka_unit_test(Grazes), cmocka_unit_test(FarSides), cmocka_unit_test(Strip), cmocka_unit_test(Limb), cmocka_unit_test(LargeSliding),
+                  cmocka_unit_test(Empty), cmocka_unit_test(Time))

@@ -31,6 +31,29 @@ contact: %s
 load: {step: 0.25}
 """
 
+FLANGE = """
+mesh: {file: flange.geo, order: 1}
+model: plane_strain
+order: 1
+body: {sheet: {material: soft}, hammer: {material: iron, motion: {x: "0.35*t", y: "-0.35*t"}}}
+material: {soft: {law: neo_hookean, E: 1000, nu: 0.3}, iron: {law: rigid}}
+boundary: {under: {fix: xy}}
+contact: {hammer: {nonmortar: [skin, end], mortar: face, friction: 0.1}%s}
+load: {step: 0.05, end: 0.15}
+"""
+SHEET = """
+Point(1) = {0, 0, 0, 0.03}; Point(2) = {0.8, 0, 0, 0.03}; Point(3) = {0.8, 0.05, 0, 0.03};
+Point(4) = {0.05, 0.05, 0, 0.03}; Point(5) = {0.05, 0.5, 0, 0.03}; Point(6) = {0, 0.5, 0, 0.03};
+Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 5}; Line(5) = {5, 6}; Line(6) = {6, 1};
+Curve Loop(7) = {1, 2, 3, 4, 5, 6}; Plane Surface(1) = {7}; Recombine Surface {1};
+Point(7) = {-0.3, 0.25, 0}; Point(8) = {-0.004, 0.56, 0}; Point(9) = {0.5, 1.15, 0}; Point(10) = {-0.3, 1.15, 0};
+Line(8) = {7, 8}; Line(9) = {8, 9}; Line(10) = {9, 10}; Line(11) = {10, 7};
+Curve Loop(12) = {8, 9, 10, 11}; Plane Surface(2) = {12};
+Transfinite Curve {8, 9, 10, 11} = 5; Transfinite Surface {2}; Recombine Surface {2};
+Physical Surface("sheet") = {1}; Physical Surface("hammer") = {2}; Physical Curve("under") = {1};
+Physical Curve("skin") = {2, 3, 4, 6}; Physical Curve("end") = {5}; Physical Curve("face") = {8};
+"""
+
 
 def scene(tmp_path, geometry, text, folder="gauntlet"):
     shutil.copy(ROOT / "tests" / folder / geometry, tmp_path / geometry)
@@ -198,3 +221,14 @@ def test_serpentine(run):
     assert result.summary["energy"] == pytest.approx(0.0029169, rel=0.01)
     assert result.summary["newton_iterations"] <= 60 and result.summary["step_cuts"] == 0
     assert not [w for w in result.summary["warnings"] if "itself" in w]
+
+
+def test_flange_does_not_meet_its_own_back(run, tmp_path):
+    """A sheet of two limbs whose whole surface may meet itself and does not: as without that pair. The facet at the re-entrant corner saw the outer side of its own limb as soon as that bent."""
+    (tmp_path / "flange.geo").write_text(SHEET)
+    for name, pair in (("with", ", skin: {surface: [skin, end]}"), ("without", "")):
+        (tmp_path / f"{name}.yml").write_text(FLANGE % pair)
+    result, without = (run(tmp_path / f"{name}.yml") for name in ("with", "without"))
+    assert result.returncode == 0 and without.summary["energy"] > 0, result
+    assert result.summary["energy"] == pytest.approx(without.summary["energy"], rel=1e-9)
+    assert result.summary["newton_iterations"] == without.summary["newton_iterations"]
