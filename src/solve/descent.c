@@ -10,7 +10,6 @@
 #define ITERATIONS 200   /* of one descent: a slender strut that buckles between walls takes 130 to 150 */
 #define MOVES 20         /* pieces of the prescribed motion */
 #define FIRST_SHIFT 1e-9 /* over the rows' largest entries */
-#define LAST_SHIFT 1e3   /* with it the matrix is a diagonal */
 #define MORE_SHIFT 8     /* times the last, where the matrix is not positive yet or the step was shorter than 1 / MORE_SHIFT; else as many times smaller next */
 #define HALVINGS 10      /* of a step, in a line search that gives up */
 #define LONGEST 64
@@ -88,7 +87,7 @@ PetscErrorCode DescentDirection_Private(Descent *d, PetscReal *slope, PetscBool 
   PetscCall(ProblemGetMatrix(d->problem, &A));
   PetscCall(Measure_Private(d, A));
   PetscCall(ProblemMeritSide(d->problem, d->gradient, NULL, d->rhs));
-  for (*ok = PETSC_FALSE; !*ok && shift < LAST_SHIFT && !d->report->stopped; shift = PetscMax(FIRST_SHIFT, MORE_SHIFT * shift)) {
+  for (*ok = PETSC_FALSE; !*ok && shift * FIRST_SHIFT < 1 && !d->report->stopped; shift = PetscMax(FIRST_SHIFT, MORE_SHIFT * shift)) {
     PetscCall(VecCopy(d->diagonal, d->work));
     PetscCall(VecScale(d->work, shift - d->added));
     if (shift != d->added) PetscCall(MatDiagonalSet(A, d->work, ADD_VALUES));
