@@ -5,13 +5,14 @@
    follow, lambda <- z, and once the constraints that press are known the exact problem is solved from there by SolverSolve. */
 #include "solveimpl.h"
 
-#define PENALTY 10       /* kappa over E / h: stiff against the cells, soft enough for the line search */
-#define OUTER 3          /* descents, each with the multipliers of the one before: what helps does so after one or two */
-#define ITERATIONS 200   /* of one descent: a slender strut that buckles between walls takes 130 to 150 */
-#define MOVES 20         /* pieces of the prescribed motion */
-#define FIRST_SHIFT 1e-9 /* over the rows' largest entries */
-#define MORE_SHIFT 8     /* times the last, where the matrix is not positive yet or the step was shorter than 1 / MORE_SHIFT; else as many times smaller next */
-#define HALVINGS 10      /* of a step, in a line search that gives up */
+#define PENALTY 10         /* kappa over E / h: stiff against the cells, soft enough for the line search */
+#define OUTER 3            /* descents, each with the multipliers of the one before: what helps does so after one or two */
+#define ITERATIONS 300     /* of one descent: a slender strut that buckles between walls takes 160 to 220 */
+#define MOVES 20           /* pieces of the prescribed motion */
+#define FIRST_SHIFT 1e-9   /* over the rows' largest entries */
+#define MORE_SHIFT 16      /* times the last, where the matrix is not positive yet; where it was, as many times smaller in the next iteration */
+#define SHORTER_SHIFT 1e-3 /* at least, and MORE_SHIFT times the last, where that calls for a step shorter than 1 / MORE_SHIFT */
+#define HALVINGS 10        /* of a step, in a line search that gives up */
 #define LONGEST 64
 #define DEEP 1 /* extents of a node along the surface: as deep as that it must not be lost, nor may a piece of the prescribed motion drive it in by more */
 
@@ -87,7 +88,7 @@ PetscErrorCode DescentDirection_Private(Descent *d, PetscReal *slope, PetscBool 
   PetscCall(ProblemGetMatrix(d->problem, &A));
   PetscCall(Measure_Private(d, A));
   PetscCall(ProblemMeritSide(d->problem, d->gradient, NULL, d->rhs));
-  for (*ok = PETSC_FALSE; !*ok && shift * FIRST_SHIFT < 1 && !d->report->stopped; shift = PetscMax(FIRST_SHIFT, MORE_SHIFT * shift)) {
+  for (*ok = PETSC_FALSE; !*ok && shift * SHORTER_SHIFT < 1 && !d->report->stopped; shift = PetscMax(FIRST_SHIFT, MORE_SHIFT * shift)) {
     PetscCall(VecCopy(d->diagonal, d->work));
     PetscCall(VecScale(d->work, shift - d->added));
     if (shift != d->added) PetscCall(MatDiagonalSet(A, d->work, ADD_VALUES));
@@ -164,7 +165,7 @@ PetscErrorCode DescentSearch_Private(Descent *d, Vec x, PetscReal slope, PetscBo
     step *= 2;
   }
   if (*ok) PetscCall(VecAXPY(x, step, d->dx));
-  d->least = *ok && step * MORE_SHIFT >= 1 ? d->shift / MORE_SHIFT : PetscMax(FIRST_SHIFT, MORE_SHIFT * d->shift);
+  d->least = *ok && step * MORE_SHIFT >= 1 ? d->shift / MORE_SHIFT : PetscMax(SHORTER_SHIFT, MORE_SHIFT * d->shift);
   PetscCall(PetscInfo(d->ksp, "shift %g, slope %g, step %g%s\n", (double)d->shift, (double)slope, (double)step, *ok ? "" : ": nothing lower"));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
