@@ -151,6 +151,8 @@ typedef struct {
   PetscErrorCode (*run)(Path *, const PathLoop *load, PetscReal to, const State *guess, SolverReport *);
 } Recovery;
 
+/* Did the state carried over to another mesh take the place of an unstable one, to which the way of the load leads? guess NULL: no. Not collective. */
+PetscBool PathWasUnstable(const Path *, const State *guess);
 /* descend.c: the row of descent (solve/descent.c). */
 PetscBool      PathCanDescend(const Path *, const State *guess);
 PetscErrorCode PathDescend(Path *, const PathLoop *load, PetscReal to, const State *guess, SolverReport *);

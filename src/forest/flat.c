@@ -12,9 +12,7 @@
    No vertex, side or group of the mesh changes but the side C-D. */
 #include "forestimpl.h"
 
-#define FLAT                                                                                                                                                   \
-  165 /* degrees; of straight cells of good generators no corner has as many, of arcs cut in two chords each has 180 less half of a chord's angle              \
-       */
+#define FLAT 165 /* degrees; 180 on smooth curves, however small the cells, and less than 160 in straight cells of good generators */
 
 enum { FLAT_NODES = FOREST_MAX_ORDER + 1 };
 
@@ -31,7 +29,7 @@ typedef struct {
   Ring      ring[4];
 } Opening;
 
-/* Cells at each vertex. */
+/* Cells at each vertex: cell[first[v] .. first[v + 1]). */
 typedef struct {
   PetscInt *first, *cell;
 } Around;

@@ -13,7 +13,7 @@ PetscErrorCode PathDescend(Path *p, const PathLoop *load, PetscReal to, const St
 
   PetscFunctionBegin;
   p->work = (StepWork){0};
-  PetscCall(PathRestore(p, guess ? guess : &l->accepted));
+  PetscCall(PathRestore(p, PathWasUnstable(p, guess) ? guess : &l->accepted));
   PetscCall(PathFrom(p, &from));
   PetscCall(load->metric->set(p, load, to));
   PetscCall(SolverDescend(l->solver, &l->state, report));

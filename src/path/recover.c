@@ -37,10 +37,14 @@ static PetscErrorCode Unfreeze_Private(Path *p, const PathLoop *load, PetscReal 
 
 /* ---- from what was carried over to another mesh ------------------------------------------------------------------------------------ */
 
-/* The way of the load leads to the unstable equilibrium that was left. */
+PetscBool PathWasUnstable(const Path *p, const State *guess)
+{
+  return (PetscBool)(guess && p->stabilised > 0 && p->stabilised_t == guess->t);
+}
+
 static PetscBool IsCarried_Private(const Path *p, const State *guess)
 {
-  return (PetscBool)(guess && !(p->stabilised > 0 && p->stabilised_t == guess->t));
+  return (PetscBool)(guess && !PathWasUnstable(p, guess));
 }
 
 /* ---- from bodies at rest that overlap ----------------------------------------------------------------------------------------------- */
