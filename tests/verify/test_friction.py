@@ -546,9 +546,9 @@ def test_far_beyond_the_zone(run, order, n, sides):
     assert force[0] == pytest.approx(force[1], rel=sides)
 
 
-@pytest.mark.parametrize("scene", [("cork", "-load_end", 0.5), ("strip", "-load_step", 0.25)])
+@pytest.mark.parametrize("scene", [("drag3d",), ("strip", "-load_step", 0.25)])
 def test_predictor(run, scene):
-    """A cork driven into a neck, a strip drawn from between blocks: the first attempt of a step fails, the one with the other predictor does not."""
+    """A block dragged across a plate (space), a strip drawn from between blocks: the first attempt of a step fails, the one with the other predictor does not."""
     result, without = (run(f"tests/gauntlet/{scene[0]}.yml", *scene[1:], "-output_fields", "false", *words) for words in ((), ("-path_predictor", "off")))
     tried = result.summary["recoveries"]["predictor"]
     assert result.returncode == 0 and tried["tried"] == tried["succeeded"] > 0 and result.summary["step_cuts"] == 0, result
