@@ -184,10 +184,11 @@ static PetscErrorCode CheckSize_Private(const CoarseMesh *mesh, PetscInt cell)
 }
 
 /* Would a cell be sound with straight sides between its corners? */
-static PetscBool IsSoundStraight_Private(const CoarseMesh *mesh, PetscInt cell, PetscReal corner[8][3])
+static PetscBool IsSoundStraight_Private(const CoarseMesh *mesh, PetscInt cell)
 {
   const PetscInt p = mesh->geometry_order, q = p + 1, n = q * q * (mesh->dim == 3 ? q : 1);
   CoarseMesh     one = *mesh;
+  PetscReal      corner[8][3];
 
   for (PetscInt k = 0; k < 1 << mesh->dim; ++k) {
     const PetscInt node = p * ((k & 1) + q * ((k >> 1) & 1) + q * q * (k >> 2));
@@ -198,15 +199,14 @@ static PetscBool IsSoundStraight_Private(const CoarseMesh *mesh, PetscInt cell, 
   return (PetscBool)(ForestCoarseJacobianSign(&one, 0) > 0);
 }
 
-static PetscErrorCode CheckCells_Private(Coarse *coarse)
+static PetscErrorCode CheckCells_Private(const CoarseMesh *mesh)
 {
-  CoarseMesh *mesh = &coarse->mesh;
-  PetscReal   X[3], corner[8][3];
+  PetscReal X[3];
 
   PetscFunctionBegin;
   for (PetscInt c = 0; c < mesh->num_cells; ++c) {
     if (ForestCoarseJacobianSign(mesh, c) > 0) continue;
-    const PetscBool straight = (PetscBool)(mesh->geometry_order > 1 && IsSoundStraight_Private(mesh, c, corner));
+    const PetscBool straight = (PetscBool)(mesh->geometry_order > 1 && IsSoundStraight_Private(mesh, c));
     CellCentre_Private(mesh, c, X);
     PetscCall(CheckSize_Private(mesh, c));
     return ErrorInput("mesh cell %" PetscInt_FMT " of %" PetscInt_FMT
@@ -372,7 +372,7 @@ PetscErrorCode ForestCoarseCreate(CoarseMesh *mesh, PetscInt num_facets, const P
   for (PetscInt c = 0; c < mesh->num_cells; ++c) PetscCall(BuilderAddCell_Private(&b, c, &mesh->cell_vertices[corners * c]));
   PetscCall(BuilderFinish_Private(&b, coarse));
   PetscCall(FacetCells_Private(coarse));
-  PetscCall(CheckCells_Private(coarse));
+  PetscCall(CheckCells_Private(&coarse->mesh));
   PetscCall(CheckShared_Private(coarse));
   PetscCall(MarkFacets_Private(&b, coarse, num_facets, facet_vertices, facet_groups));
   PetscCall(BuilderDestroy_Private(&b));

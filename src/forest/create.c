@@ -57,7 +57,7 @@ static PetscErrorCode TellOpened_Private(MPI_Comm comm, const CoarseMesh *mesh)
   if (!mesh->num_opened) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscPrintf(comm,
                         "note: mesh cells with a flat corner, as where two sides lie on one curve: %" PetscInt_FMT " of %" PetscInt_FMT
-                        ", the first at (%.4g, %.4g); four are made of each and a neighbour (mesh.keep_flat: true leaves them)\n",
+                        ", the first at (%.4g, %.4g); each and a neighbour become four (mesh.keep_flat: true leaves them)\n",
                         mesh->num_opened, mesh->num_cells - 2 * mesh->num_opened, (double)mesh->first_opened[0], (double)mesh->first_opened[1]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

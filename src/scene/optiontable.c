@@ -27,7 +27,7 @@ const Option Options[] = {
     {"mesh.order", KEY_INT, "", "2", "[1,4]", "geometry order asked of gmsh for a .geo", SCENE(mesh_order)},
     {"mesh.refine", KEY_INT, "", "0", "[0,12]", "uniform refinements before the first solve", SCENE(data.mesh.refine)},
     {"mesh.keep_flat", KEY_BOOL, "", "false", "",
-     "true: cells of the plane with a flat corner, where their map is singular, stay as they are; else four are made of each and a neighbour",
+     "true: cells of the plane with a flat corner, where their map is singular, stay as they are; else each and a neighbour become four",
      SCENE(data.mesh.keep_flat)},
     {"mesh.trust", KEY_BOOL, "", "false", "", "true: a .geo may run programs and write files, as gmsh lets it; only for one that you know all of",
      SCENE(trust)},
@@ -122,11 +122,9 @@ const Option Options[] = {
      "instead of two sides: one physical group, or list of groups, that may meet itself, of one body or several; which facets carry the pressure is chosen",
      PAIR(surface)},
     {"contact.<pair>.roles", KEY_WORD, "", "auto", "auto|given",
-     "auto: a nonmortar side that is stiffer, as stiff and of facets twice as long, or rigid changes places with the other, unless it alone has a corner, or "
-     "an "
-     "edge rounded within a facet of the other side (plane), and one that has none where the other has; the run begins anew so where a corner of the mortar "
-     "side "
-     "presses within a facet; given: for comparison, only where it is rigid",
+     "auto: a nonmortar side that is stiffer, as stiff and of facets twice as long, or rigid changes places with the other, unless it alone has a corner, "
+     "or an edge rounded within a facet of the other side (plane), and one that has none where the other has; the run begins anew so where a corner of the "
+     "mortar side presses within a facet; given: for comparison, only where it is rigid",
      PAIR(roles)},
     {"contact.<pair>.kind", KEY_WORD, "", "contact", "contact|tied",
      "tied: what faces each other at the reference positions is glued, meshes need not match; each side may have facets that face nothing", PAIR(kind)},
