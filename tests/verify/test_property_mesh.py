@@ -85,6 +85,20 @@ Physical Surface("billet") = {1}; Physical Surface("die") = {2}; Physical Curve(
 """
 
 
+@pytest.mark.parametrize("ranks", [1, 2, 3])
+def test_patch_with_an_opened_corner(run, tmp_path, ranks):
+    """A stretch and a shear of all of the boundary: the same in every cell, those round the opened corner too; their energy, no error, Newton's method as always."""
+    (tmp_path / "s.geo").write_text(ROUND.replace('Physical Curve("face") = {11};', 'Physical Curve("rim") = {1:6}; Physical Curve("sides") = {11:14};'))
+    material = {"metal": {"law": "neo_hookean", "E": 1, "nu": 0.3}}
+    affine = {"displacement": {"x": "0.1*X + 0.05*Y", "y": "-0.08*Y"}}
+    scene = {"mesh": {"file": "s.geo", "order": 3}, "model": "plane_strain", "order": 3, "body": {name: {"material": "metal"} for name in ("billet", "die")},
+             "material": material, "boundary": {"rim": affine, "sides": affine}, "load": {"step": 1}}
+    opened, kept = (run("s.yml", "-mesh_keep_flat", keep, "-mesh_order", order, text=json.dumps(scene), ranks=ranks) for keep, order in (("false", 3), ("true", 2)))
+    assert "flat corner" in opened.stdout and opened.summary["newton_iterations"] <= 5, opened
+    assert opened.summary["estimated_error"] < 1e-9, opened.summary["estimated_error"]
+    assert opened.summary["energy"] == pytest.approx(kept.summary["energy"], rel=1e-4)  # arcs of another order
+
+
 def test_flat_corner_under_a_die(run, tmp_path):
     """Metal pressed flat where a cell has a corner of 180 degrees, in the middle of a rounded edge: energy as at half the tolerance (132.767 and 132.779, opened and kept)."""
     (tmp_path / "s.geo").write_text(ROUND)
