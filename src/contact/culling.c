@@ -132,12 +132,13 @@ static PetscInt Beside_Private(ContactHull hull, PetscInt part, const FacetCorne
   return num;
 }
 
-/* Do the bodies overlap less across the ray than along it? Their sides there face each other. */
-static PetscBool IsBeside_Private(PetscInt num_a, const HullSide a[], PetscInt num_b, const HullSide b[], PetscReal reach)
+/* Do the bodies overlap less across the ray than along it? Their sides there face each other. N: the normal of the mortar facet; what faces as it does is the
+   surface that the ray meets, not a side beside it. */
+static PetscBool IsBeside_Private(PetscInt num_a, const HullSide a[], PetscInt num_b, const HullSide b[], const PetscReal N[3], PetscReal reach)
 {
   for (PetscInt i = 0; i < num_a; i++)
     for (PetscInt j = 0; j < num_b; j++)
-      if (a[i].distance + b[j].distance < reach && Dot3(a[i].N, b[j].N) < -CONTACT_OPPOSE) return PETSC_TRUE;
+      if (a[i].distance + b[j].distance < reach && Dot3(a[i].N, b[j].N) < -CONTACT_OPPOSE && Dot3(b[j].N, N) < STEEP) return PETSC_TRUE;
   return PETSC_FALSE;
 }
 
@@ -258,7 +259,7 @@ PetscBool ContactBehind(ContactPair pair, PetscInt facet, const FacetCorners *s,
   if (behind) return PETSC_TRUE;
   num_own   = Beside_Private(pair->hull, pair->part[0][facet], s, xi, r, depth, depth, side[0]);
   num_other = num_own ? Beside_Private(pair->hull, pair->part[1][other], &m, eta, n, depth, depth, side[1]) : 0;
-  return IsBeside_Private(num_own, side[0], num_other, side[1], depth);
+  return IsBeside_Private(num_own, side[0], num_other, side[1], N, depth);
 }
 
 void ContactPairGetUntold(ContactPair pair, PetscReal *depth)

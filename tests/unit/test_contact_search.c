@@ -647,7 +647,56 @@ static void Limb(void **state)
   for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(bend); k++) assert_int_equal(ThroughLimb(bend[k]), 0);
 }
 
+/* A wedge of 67 degrees, its flanks in pieces of 0.05, whose tip is this deep in a flat bottom: does the flank beside the tip see
+   it? The rays of that one run along the other flank and, steeply, along the bottom itself, which is no side beside them. */
+static PetscBool TipSees(PetscReal depth)
+{
+  static const PetscReal corner[4][2] = {{0.4, -0.4}, {0, 0}, {-0.1, -0.25}, {0, -0.8}};
+  static const PetscInt  pieces[4] = {11, 5, 1, 1}, tip = 11;
+  PetscInt              *parts = NULL, part[2][18], num = 0, n = 0;
+  PetscReal             *X = NULL;
+  const PetscInt        *start, *candidate;
+  ContactHull            hull;
+  ContactPair            pair;
+  Chain                  wedge, bar;
+  PetscBool              sees = PETSC_FALSE;
+
+  for (int e = 0; e < 18; e++) part[0][e] = 0, part[1][e] = 1;
+  CHECK_CALL(PetscMalloc1(28, &parts));
+  CHECK_CALL(PetscMalloc1(112, &X));
+  Bar(&bar, -0.5, 0.5, 1, &num, parts, X);
+  ChainMove(&bar, 0, -2, 0.5);
+  for (PetscInt k = 0; k < 40; k++) X[k] += k % 2 ? 0.5 : -2;
+  ChainReference(&bar);
+  ChainCreate(&wedge, 18, PETSC_TRUE);
+  for (PetscInt s = 0; s < 4; s++)
+    for (PetscInt k = 0; k < pieces[s]; k++, n++)
+      for (int c = 0; c < 2; c++) wedge.x[2 * n + c] = corner[s][c] + (corner[(s + 1) % 4][c] - corner[s][c]) * (PetscReal)k / (PetscReal)pieces[s];
+  ChainReference(&wedge);
+  for (PetscInt e = 0; e < 18; e++) {
+    for (int k = 0; k < 4; k++) X[4 * num + k] = wedge.x[2 * wedge.edges[2 * e + k / 2] + k % 2];
+    parts[num++] = 0;
+  }
+  CHECK_CALL(ContactHullCreate(2, num, parts, X, &hull));
+  ChainMove(&wedge, -0.08, 0.7, depth);
+  PairCreate(PETSC_FALSE, PETSC_FALSE, &pair);
+  ContactPairSetHull(pair, hull, part[0], part[1], 1);
+  SearchAll(pair, &wedge, &bar, 0.5, 1e-5);
+  ContactPairGetCandidates(pair, &start, &candidate);
+  for (PetscInt k = start[tip - 1]; k < start[tip]; k++) sees = (PetscBool)(sees || candidate[k] == 2);
+  CHECK_CALL(ContactPairDestroy(&pair));
+  CHECK_CALL(ContactHullDestroy(&hull));
+  ChainDestroy(&wedge);
+  ChainDestroy(&bar);
+  return sees;
+}
+
+static void Tip(void **state)
+{
+  for (PetscReal depth = 1e-4; depth < 0.02; depth *= 1.5) assert_true(TipSees(depth));
+}
+
 CONTACT_TEST_MAIN("contact: search", cmocka_unit_test(BruteForce), cmocka_unit_test(Margin), cmocka_unit_test(Near), cmocka_unit_test(Groove),
                   cmocka_unit_test(Layers), cmocka_unit_test(Shoulder), cmocka_unit_test(Behind), cmocka_unit_test(Grazing), cmocka_unit_test(Trials),
-                  cmocka_unit_test(Grazes), cmocka_unit_test(FarSides), cmocka_unit_test(Strip), cmocka_unit_test(Limb), cmocka_unit_test(LargeSliding),
-                  cmocka_unit_test(Empty), cmocka_unit_test(Time))
+                  cmocka_unit_test(Grazes), cmocka_unit_test(FarSides), cmocka_unit_test(Strip), cmocka_unit_test(Limb), cmocka_unit_test(Tip),
+                  cmocka_unit_test(LargeSliding), cmocka_unit_test(Empty), cmocka_unit_test(Time))
