@@ -137,7 +137,18 @@ static PetscReal InitialGap_Private(const ContactTerm *term, const ContactSegmen
   return gap;
 }
 
-/* Gap and height of the mortar side at a point. */
+/* Does the direction n face the mortar facet at eta? */
+static PetscBool Faces_Private(const SurfaceView *m, const PetscReal positions[], PetscInt facet, const PetscReal eta[2], const PetscReal n[3])
+{
+  PetscReal t[2][3], normal[3];
+
+  SurfaceTangents(m, facet, positions, eta, t);
+  Cross3(t[0], t[1], normal);
+  return (PetscBool)(Dot3(normal, n) < 0);
+}
+
+/* Gap and height of the mortar side at a point. Where a facet turns round a corner, or is folded in a cell that is turned inside out there, a part of it may
+   not face what other parts of it do: that is in front of the one that does not, however it lies, and no overlap. */
 static void Gap_Private(const EstimateSum *sum, const ContactTerm *term, const ContactSegment *segment, const PetscReal N[], PetscReal eta[2], GapPoint *p)
 {
   const PetscBool    finite = (PetscBool)(sum->spec->kinematics == KINEMATICS_FINITE);
@@ -155,6 +166,7 @@ static void Gap_Private(const EstimateSum *sum, const ContactTerm *term, const C
   ContactNormal_Private(term, finite, segment->facet, center, M, middle);
   p->gap = finite ? Dot3(n, y) - Dot3(n, x) : LinearGap_Private(m, segment->mortar_facet, eta, n, X, x);
   p->gap -= term->view->interference + InitialGap_Private(term, segment, p->xi, N, eta);
+  if (!Faces_Private(m, finite ? m->x : m->X, segment->mortar_facet, eta, n)) p->gap = PetscMax(p->gap, 0);
   p->height = Dot3(middle, y);
 }
 

@@ -207,16 +207,40 @@ static PetscErrorCode OwnedCell_Private(EstimateSum *sum, PetscInt cell, const V
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* A cell that collapses may be folded between its integration points (det F <= 0), where no law has an answer. The estimate takes there that of the first of
-   eight places on the way to the cell's centre that is not. */
+/* The least det F of a cell at n points in each direction. */
+static PetscErrorCode LeastDet_Private(const EstimateSum *sum, PetscInt cell, PetscInt n, const PetscReal points[], PetscReal *least)
+{
+  const PetscInt dim = sum->v->dim, num = ElementNumNodes(dim, n - 1);
+  PetscReal     *xi, *F;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc2(num * dim, &xi, num * 9, &F));
+  for (PetscInt q = 0; q < num; ++q)
+    for (PetscInt d = 0, k = q; d < dim; ++d, k /= n) xi[q * dim + d] = points[k % n];
+  PetscCall(MechanicsPoints(sum->mechanics, cell, num, xi, sum->u, &(PointValues){.F = F}));
+  *least = PETSC_MAX_REAL;
+  for (PetscInt q = 0; q < num; ++q) *least = PetscMin(*least, Det3(F + 9 * q));
+  PetscCall(PetscFree2(xi, F));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* A cell may be folded between its integration points (det F <= 0), where no law has an answer, and on the way there stresses grow without bound. The estimate
+   takes there that of the first of eight places on the way to the cell's centre where no more is compressed than at the integration points. */
 static PetscErrorCode Unfold_Private(const EstimateSum *sum, PetscInt cell, PetscInt num, CellWork *w)
 {
-  const PetscInt dim = sum->v->dim;
+  const PetscInt  dim     = sum->v->dim;
+  const PetscReal ends[2] = {0, 1};
+  const Basis1D  *rule;
+  PetscReal       least;
 
   PetscFunctionBegin;
   if (sum->spec->kinematics == KINEMATICS_SMALL) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(LeastDet_Private(sum, cell, 2, ends, &least));
+  if (least > 0) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(MechanicsPointRule(sum->v->cell_order[cell], &rule));
+  PetscCall(LeastDet_Private(sum, cell, rule->num_points, rule->points, &least));
   for (PetscInt q = 0; q < num; ++q) {
-    for (PetscInt eighth = 7; eighth >= 0 && !(Det3(w->F + 9 * q) > 0); --eighth) {
+    for (PetscInt eighth = 7; eighth >= 0 && !(Det3(w->F + 9 * q) >= least); --eighth) {
       PetscReal xi[3];
       for (PetscInt c = 0; c < dim; ++c) xi[c] = 0.5 + 0.125 * (PetscReal)eighth * (w->xi[q * dim + c] - 0.5);
       PetscCall(MechanicsPoints(sum->mechanics, cell, 1, xi, sum->u, &(PointValues){.F = w->F + 9 * q, .P = w->P + 9 * q, .W = w->W + q}));

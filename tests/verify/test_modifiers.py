@@ -13,7 +13,6 @@ DEEP = ("inputs/slide2d.yml", "-adapt_tolerance", 0, "-mesh_parameter_n", 8, "-o
         "-contact_disc_on_block_mortar", "disc_surface")
 DRIVEN = ("inputs/cylinder.yml", "-boundary_flat_traction_y", 0, "-boundary_flat_displacement_y", -1.6, "-load_step", 1, "-mesh_parameter_n", 4,
           "-mesh_parameter_m", 4, "-refine_arc_levels", 3, "-refine_top_levels", 3, "-adapt_tolerance", 0, "-order", 2, "-contact_cylinder_on_block_order", "full")
-SOFT_ON_STIFF = ("tests/gauntlet/press.yml", "-material_a_E", 1, "-material_a_nu", 0.45, "-material_b_E", 1e5, "-material_b_nu", 0.3)
 ROLLS = ("tests/gauntlet/rocker.yml", "-adapt_tolerance", 0, "-material_soil_E", 20, "-mesh_parameter_k", 1.25, "-load_step", 0.25, "-load_step_min", 0.2,
          "-load_end", 1.25)
 UPSET = ("tests/gauntlet/upset.yml", "-load_end", 0.3, "-load_step", 0.15, "-load_step_min", 0.15, "-path_predictor", "off")
@@ -68,15 +67,13 @@ def test_inside(run):
 
 
 def test_finer_meshes(run):
-    """A soft disc on a stiff block folds under the ends of its bonded top, between integration points; on smaller cells there no equilibrium is found. The rest
-    of the mesh is refined, and the tolerance is reached; not without that."""
-    scene = (*SOFT_ON_STIFF, "-adapt_tolerance", 0.0125, *QUIET)
-    plain = run(*scene)
-    assert plain.returncode == 0 and plain.summary["estimated_error"] < 0.0125, plain
-    without = run(*scene, "-path_unfolded", "off")
+    """A block of rubber folds under the ends of its bonded faces, between integration points; on smaller cells there no equilibrium is found. The rest of the
+    mesh is refined, and the tolerance is reached; not without that."""
+    scene = ("tests/gauntlet/bonded.yml", *QUIET, "-adapt_tolerance", 0.06)
+    plain, without = (run(*scene, "-path_unfolded", word) for word in ("auto", "off"))
     print(plain.summary["estimated_error"], without.summary["estimated_error"])
-    assert plain.summary["folded_left"] > 0 == without.summary["folded_left"]
-    assert without.summary["status"] == "inaccurate" and without.summary["estimated_error"] > 0.0125
+    assert plain.returncode == 0 and plain.summary["estimated_error"] < 0.06 and plain.summary["folded_left"] > 0, plain
+    assert without.summary["status"] == "inaccurate" and without.summary["estimated_error"] > 0.06 and without.summary["folded_left"] == 0, without
 
 
 def test_merged_cells(run):
@@ -116,12 +113,12 @@ def test_load_again_on_a_finer_mesh(run):
     """Cook's membrane of incompressible rubber is not found from what was carried over to smaller cells at its held corner, but when the load is put on again
     from rest: nothing else is tried. Without that the mesh stays coarse."""
     scene = ("inputs/cook.yml", "-material_rubber_kappa", ".inf", "-load_step", 1, "-order", 4, "-mesh_parameter_n", 4, "-adapt_max_passes", 30, *QUIET)
-    result = run(*scene, "-adapt_tolerance", 0.02)
+    result = run(*scene, "-adapt_tolerance", 0.015)
     assert result.returncode == 0 and result.summary["recoveries"]["cut"]["succeeded"] > 0, result
     assert not any(row["tried"] for name, row in result.summary["recoveries"].items() if name != "cut")
     assert result.summary["probe"]["tip"]["displacement"][1] == pytest.approx(6.934, rel=1e-3)
-    without = run(*scene, "-adapt_tolerance", 0.02, "-path_cut", "off")
-    assert without.returncode == 2 and without.summary["status"] == "inaccurate" and without.summary["estimated_error"] > 0.02, without
+    without = run(*scene, "-adapt_tolerance", 0.015, "-path_cut", "off")
+    assert without.returncode == 2 and without.summary["status"] == "inaccurate" and without.summary["estimated_error"] > 0.015, without
 
 
 def test_switches_and_counters(run):
@@ -135,17 +132,9 @@ def test_switches_and_counters(run):
     assert off.summary["energy"] == pytest.approx(plain.summary["energy"], rel=1e-9)
 
 
-def test_folded_cells_are_not_split(run):
-    """Rubber at bonded edges, whose free face turns over the bonded one: smaller cells there fold even more, and forces are those of another state."""
-    left, split = (run("tests/gauntlet/bonded.yml", *QUIET, "-path_unfolded", word) for word in ("auto", "off"))
-    wall = [abs(result.summary["contact"]["c"]["force"][0]) / 0.1122 - 1 for result in (left, split)]  # of finer meshes: tests/gauntlet/scenes.json
-    assert left.returncode == 0 and left.summary["folded_left"] > 0 == split.summary["folded_left"], left
-    assert abs(wall[0]) < 0.03 < 0.08 < abs(wall[1]), wall
-    assert 2 * left.summary["newton_iterations"] < split.summary["newton_iterations"]
-
-
 def test_cells_that_would_fold(run):
     """Where the mesh without cells that are folded already has no equilibrium, one without those that fold on it has: a mount of rubber is done to its tolerance."""
-    plain, without = (run("tests/gauntlet/mount.yml", *QUIET, "-path_unfolded", word) for word in ("auto", "off"))
-    assert plain.returncode == 0 and plain.summary["recoveries"]["unfolded"]["succeeded"] > 0 < plain.summary["folded_left"], plain
+    scene = ("tests/gauntlet/mount.yml", *QUIET, "-adapt_tolerance", 0.06, "-order", 3)
+    plain, without = (run(*scene, "-path_unfolded", word) for word in ("auto", "off"))
+    assert plain.returncode == 0 and plain.summary["recoveries"]["unfolded"]["succeeded"] > 0, plain
     assert without.returncode == 2 and without.summary["status"] == "inaccurate", without
