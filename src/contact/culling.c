@@ -12,13 +12,13 @@
    facets see each other at the reference positions along a straight line that does not leave the body. What met across a void does not: between bore and bore,
    or limb and limb, it does.
 
-   Thicknesses are those at the reference positions, along directions that turn with the facets. They are measured from places inside facets, not at their ends:
-   at a corner that two facets share a ray leaves by one of them at once (hull.c), also at a re-entrant one, where behind it there is body. */
+   Thicknesses are those at the reference positions, along directions that turn with the facets. Whether a body faces itself across its thickness is asked for
+   places inside facets: at a re-entrant corner that two facets share a ray leaves by one of them at once (hull.c), though behind it there is body. */
 #include "kernelimpl.h"
 
-enum { MOST_SIDES = 32, LEVELS = 6 }; /* of the search for the ray to the middle of the mortar facet: to 1/64 of the facet */
+#define INSIDE (1 - 1. / 64) /* of a facet's ends, as near as the search for a ray tells */
 
-#define INSIDE (1 - 1. / (1 << LEVELS)) /* the outermost places of a facet that this search tries */
+enum { MOST_SIDES = 32, LEVELS = 6 }; /* of the search for the ray to the middle of the mortar facet: to 1/32 of the facet */
 
 static void Axes_Private(PetscInt dim, const PetscReal x[4][3], PetscReal axis[3][3])
 {
@@ -68,7 +68,7 @@ static void Sum_Private(const PetscReal x[4][3], const PetscReal N[4], PetscReal
   for (int c = 0; c < 3; c++) y[c] = N[0] * x[0][c] + N[1] * x[1][c] + N[2] * x[2][c] + N[3] * x[3][c];
 }
 
-/* The place inside the facet, taken for a parallelogram, that is nearest to y along its sides. */
+/* The place on the facet, taken for a parallelogram, that is nearest to y along its sides. */
 static void Locate_Private(const FacetCorners *p, const PetscReal y[3], PetscReal xi[2])
 {
   PetscReal g[2][3] = {{0, 0, 0}, {0, 0, 0}}, r[3], a[2][2], b[2], det;
@@ -88,7 +88,7 @@ static void Locate_Private(const FacetCorners *p, const PetscReal y[3], PetscRea
   det   = a[0][0] * a[1][1] - a[0][1] * a[1][0];
   xi[0] = p->dim == 2 ? b[0] / a[0][0] : (b[0] * a[1][1] - b[1] * a[0][1]) / det;
   xi[1] = p->dim == 2 ? 0 : (b[1] * a[0][0] - b[0] * a[1][0]) / det;
-  for (int i = 0; i < 2; i++) xi[i] = PetscMax(-INSIDE, PetscMin(INSIDE, xi[i]));
+  for (int i = 0; i < 2; i++) xi[i] = PetscMax(-1, PetscMin(1, xi[i]));
 }
 
 /* The place X of xi on the facet of a body, at the reference positions, and what was there the direction d of now: it turns with the facet. */
@@ -132,13 +132,12 @@ static PetscInt Beside_Private(ContactHull hull, PetscInt part, const FacetCorne
   return num;
 }
 
-/* Do the bodies overlap less across the ray than along it? Their sides there face each other. N: the normal of the mortar facet; what faces as it does is the
-   surface that the ray meets, not a side beside it. */
-static PetscBool IsBeside_Private(PetscInt num_a, const HullSide a[], PetscInt num_b, const HullSide b[], const PetscReal N[3], PetscReal reach)
+/* Do the bodies overlap less across the ray than along it? Their sides there face each other. */
+static PetscBool IsBeside_Private(PetscInt num_a, const HullSide a[], PetscInt num_b, const HullSide b[], PetscReal reach)
 {
   for (PetscInt i = 0; i < num_a; i++)
     for (PetscInt j = 0; j < num_b; j++)
-      if (a[i].distance + b[j].distance < reach && Dot3(a[i].N, b[j].N) < -CONTACT_OPPOSE && Dot3(b[j].N, N) < STEEP) return PETSC_TRUE;
+      if (a[i].distance + b[j].distance < reach && Dot3(a[i].N, b[j].N) < -CONTACT_OPPOSE) return PETSC_TRUE;
   return PETSC_FALSE;
 }
 
@@ -159,7 +158,7 @@ static PetscReal Pass_Private(const FacetCorners *s, const PetscReal xi[2], cons
 /* The place whose ray passes nearest to y, by trial, since rays may cross behind the facet; its ray. */
 static void Aim_Private(const FacetCorners *s, const PetscReal y[3], PetscReal xi[2], PetscReal x[3], PetscReal n[3])
 {
-  PetscReal least = PETSC_MAX_REAL, step = 0.5;
+  PetscReal least = PETSC_MAX_REAL, step = 1;
 
   xi[0] = xi[1] = 0;
   for (int level = 0; level < LEVELS; level++, step *= 0.5) {
@@ -167,7 +166,8 @@ static void Aim_Private(const FacetCorners *s, const PetscReal y[3], PetscReal x
 
     for (int k = 0; k < (s->dim == 2 ? 3 : 9); k++) {
       if (level > 0 && k == (s->dim == 2 ? 1 : 4)) continue; /* where it stands */
-      const PetscReal at[2]    = {from[0] + (k % 3 - 1) * step, s->dim == 2 ? 0 : from[1] + (k / 3 - 1) * step};
+      const PetscReal at[2]    = {PetscMax(-1, PetscMin(1, from[0] + (k % 3 - 1) * step)),
+                               s->dim == 2 ? 0 : PetscMax(-1, PetscMin(1, from[1] + (k / 3 - 1) * step))};
       const PetscReal distance = Pass_Private(s, at, y, x, n);
 
       if (distance < least) least = distance, xi[0] = at[0], xi[1] = at[1];
@@ -219,11 +219,15 @@ void ContactCorners(ContactPair pair, const ContactSurface *nonmortar, PetscInt 
 static PetscBool IsThickness_Private(ContactHull hull, PetscInt part, const FacetCorners *s, const PetscReal xi[2], const FacetCorners *m,
                                      const PetscReal eta[2])
 {
-  PetscReal N[4], X[3], Y[3], d[3], length;
+  PetscReal N[4], X[3], Y[3], d[3], length, inside[2][2];
 
-  Hats_Private(s, xi, N);
+  for (int i = 0; i < 2; i++) {
+    inside[0][i] = PetscMax(-INSIDE, PetscMin(INSIDE, xi[i]));
+    inside[1][i] = PetscMax(-INSIDE, PetscMin(INSIDE, eta[i]));
+  }
+  Hats_Private(s, inside[0], N);
   Sum_Private(s->X, N, X);
-  Hats_Private(m, eta, N);
+  Hats_Private(m, inside[1], N);
   Sum_Private(m->X, N, Y);
   for (int c = 0; c < 3; c++) d[c] = Y[c] - X[c];
   length = PetscSqrtReal(Dot3(d, d));
@@ -259,7 +263,7 @@ PetscBool ContactBehind(ContactPair pair, PetscInt facet, const FacetCorners *s,
   if (behind) return PETSC_TRUE;
   num_own   = Beside_Private(pair->hull, pair->part[0][facet], s, xi, r, depth, depth, side[0]);
   num_other = num_own ? Beside_Private(pair->hull, pair->part[1][other], &m, eta, n, depth, depth, side[1]) : 0;
-  return IsBeside_Private(num_own, side[0], num_other, side[1], N, depth);
+  return IsBeside_Private(num_own, side[0], num_other, side[1], depth);
 }
 
 void ContactPairGetUntold(ContactPair pair, PetscReal *depth)
