@@ -647,8 +647,8 @@ static void Limb(void **state)
   for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(bend); k++) assert_int_equal(ThroughLimb(bend[k]), 0);
 }
 
-/* A wedge of 67 degrees, its flanks in pieces of 0.05, whose tip is this deep in a flat bottom: does the flank beside the tip see
-   it? The rays of that one run along the other flank and, steeply, along the bottom itself, which is no side beside them. */
+/* A wedge of 67 degrees, its flanks in pieces of 0.05, whose tip is this deep in a flat bottom: does the flank beside the tip see it? Its last ray leaves the
+   wedge at the tip; rays from beside the tip would run along the other flank, and the bottom be taken for a side beside them. */
 static PetscBool TipSees(PetscReal depth)
 {
   static const PetscReal corner[4][2] = {{0.4, -0.4}, {0, 0}, {-0.1, -0.25}, {0, -0.8}};
