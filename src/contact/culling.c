@@ -16,7 +16,7 @@
    places inside facets: at a re-entrant corner that two facets share a ray leaves by one of them at once (hull.c), though behind it there is body. */
 #include "kernelimpl.h"
 
-#define INSIDE (1 - 1. / 64) /* of a facet's ends, as near as the search for a ray tells */
+#define INSIDE (1 - 1. / 64) /* of half a facet: as near to its ends as places are inside it */
 
 enum { MOST_SIDES = 32, LEVELS = 6 }; /* of the search for the ray to the middle of the mortar facet: to 1/32 of the facet */
 

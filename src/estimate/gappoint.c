@@ -147,8 +147,8 @@ static PetscBool Faces_Private(const SurfaceView *m, const PetscReal positions[]
   return (PetscBool)(Dot3(normal, n) < 0);
 }
 
-/* Gap and height of the mortar side at a point. Where a facet turns round a corner, or is folded in a cell that is turned inside out there, a part of it may
-   not face what other parts of it do: that is in front of the one that does not, however it lies, and no overlap. */
+/* Gap and height of the mortar side at a point. A part of a facet that has turned away from what other parts of it face, as one that is folded back in a cell
+   that is turned inside out, overlaps nothing there. */
 static void Gap_Private(const EstimateSum *sum, const ContactTerm *term, const ContactSegment *segment, const PetscReal N[], PetscReal eta[2], GapPoint *p)
 {
   const PetscBool    finite = (PetscBool)(sum->spec->kinematics == KINEMATICS_FINITE);
@@ -166,7 +166,7 @@ static void Gap_Private(const EstimateSum *sum, const ContactTerm *term, const C
   ContactNormal_Private(term, finite, segment->facet, center, M, middle);
   p->gap = finite ? Dot3(n, y) - Dot3(n, x) : LinearGap_Private(m, segment->mortar_facet, eta, n, X, x);
   p->gap -= term->view->interference + InitialGap_Private(term, segment, p->xi, N, eta);
-  if (!Faces_Private(m, finite ? m->x : m->X, segment->mortar_facet, eta, n)) p->gap = PetscMax(p->gap, 0);
+  if (p->gap < 0 && !Faces_Private(m, finite ? m->x : m->X, segment->mortar_facet, eta, n)) p->gap = 0;
   p->height = Dot3(middle, y);
 }
 

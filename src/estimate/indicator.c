@@ -207,38 +207,44 @@ static PetscErrorCode OwnedCell_Private(EstimateSum *sum, PetscInt cell, const V
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The least det F of a cell at n points in each direction. */
-static PetscErrorCode LeastDet_Private(const EstimateSum *sum, PetscInt cell, PetscInt n, const PetscReal points[], PetscReal *least)
+static PetscReal LeastDet_Private(PetscInt num, const PetscReal F[])
 {
-  const PetscInt dim = sum->v->dim, num = ElementNumNodes(dim, n - 1);
+  PetscReal least = PETSC_MAX_REAL;
+
+  for (PetscInt q = 0; q < num; ++q) least = PetscMin(least, Det3(F + 9 * q));
+  return least;
+}
+
+/* The least det F of a cell at its integration points. */
+static PetscErrorCode LeastOfSolution_Private(const EstimateSum *sum, PetscInt cell, PetscReal *least)
+{
+  const PetscInt dim = sum->v->dim;
+  const Basis1D *rule;
   PetscReal     *xi, *F;
 
   PetscFunctionBegin;
+  PetscCall(MechanicsPointRule(sum->v->cell_order[cell], &rule));
+  const PetscInt n = rule->num_points, num = ElementNumNodes(dim, n - 1);
   PetscCall(PetscMalloc2(num * dim, &xi, num * 9, &F));
   for (PetscInt q = 0; q < num; ++q)
-    for (PetscInt d = 0, k = q; d < dim; ++d, k /= n) xi[q * dim + d] = points[k % n];
+    for (PetscInt d = 0, k = q; d < dim; ++d, k /= n) xi[q * dim + d] = rule->points[k % n];
   PetscCall(MechanicsPoints(sum->mechanics, cell, num, xi, sum->u, &(PointValues){.F = F}));
-  *least = PETSC_MAX_REAL;
-  for (PetscInt q = 0; q < num; ++q) *least = PetscMin(*least, Det3(F + 9 * q));
+  *least = LeastDet_Private(num, F);
   PetscCall(PetscFree2(xi, F));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* A cell may be folded between its integration points (det F <= 0), where no law has an answer, and on the way there stresses grow without bound. The estimate
-   takes there that of the first of eight places on the way to the cell's centre where no more is compressed than at the integration points. */
+/* A cell may be folded between its integration points and its corners, whose F comes after that of the num others (det F <= 0), where no law has an answer, and
+   on the way there stresses grow without bound. Where det F is less than at all integration points the estimate takes what is at the first of eight places on
+   the way to the cell's centre where it is not. */
 static PetscErrorCode Unfold_Private(const EstimateSum *sum, PetscInt cell, PetscInt num, CellWork *w)
 {
-  const PetscInt  dim     = sum->v->dim;
-  const PetscReal ends[2] = {0, 1};
-  const Basis1D  *rule;
-  PetscReal       least;
+  const PetscInt dim = sum->v->dim;
+  PetscReal      least;
 
   PetscFunctionBegin;
-  if (sum->spec->kinematics == KINEMATICS_SMALL) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(LeastDet_Private(sum, cell, 2, ends, &least));
-  if (least > 0) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(MechanicsPointRule(sum->v->cell_order[cell], &rule));
-  PetscCall(LeastDet_Private(sum, cell, rule->num_points, rule->points, &least));
+  if (sum->spec->kinematics == KINEMATICS_SMALL || LeastDet_Private(1 << dim, w->F + 9 * num) > 0) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(LeastOfSolution_Private(sum, cell, &least));
   for (PetscInt q = 0; q < num; ++q) {
     for (PetscInt eighth = 7; eighth >= 0 && !(Det3(w->F + 9 * q) >= least); --eighth) {
       PetscReal xi[3];
@@ -249,9 +255,9 @@ static PetscErrorCode Unfold_Private(const EstimateSum *sum, PetscInt cell, Pets
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* One call of the material for all points of a cell: Gauss points first, then those of its facets. Where a cell collapses, its polynomials and their
-   derivatives take the steepness of its stiffest point everywhere: the weight of all its terms is that point's, too. A ghost's Gauss points tell that, and its
-   pressure. */
+/* One call of the material for all points of a cell: Gauss points first, then those of its facets, then the corners. Where a cell collapses, its polynomials
+   and their derivatives take the steepness of its stiffest point everywhere: the weight of all its terms is that point's, too. A ghost's Gauss points tell
+   that, and its pressure. */
 static PetscErrorCode Cell_Private(EstimateSum *sum, PetscInt cell, VolumeTable tables[][2], CellWork *w, PetscReal height[][3])
 {
   const PetscInt  dim = sum->v->dim, order = sum->v->cell_order[cell];
@@ -273,7 +279,8 @@ static PetscErrorCode Cell_Private(EstimateSum *sum, PetscInt cell, VolumeTable 
   PetscCall(PetscArraycpy(w->xi, table->xi, num * dim));
   PetscReal *xi = w->xi + num * dim, *F = w->F + 9 * num, *P = w->P + 9 * num, *J = w->J + 9 * num, *position = w->position + 3 * num;
   PetscCall(EstimateTracePoints_Private(sum, cell, xi));
-  PetscCall(MechanicsPoints(sum->mechanics, cell, num + traces, w->xi, sum->u, &(PointValues){w->position, w->J, w->F, w->P, w->W}));
+  for (PetscInt k = 0; k < dim << dim; ++k) xi[traces * dim + k] = (k / dim >> k % dim) & 1;
+  PetscCall(MechanicsPoints(sum->mechanics, cell, num + traces + (1 << dim), w->xi, sum->u, &(PointValues){w->position, w->J, w->F, w->P, w->W}));
   PetscCall(Unfold_Private(sum, cell, num + traces, w));
   if (owned || mixed) {
     Weights_Private(sum, table, w);
@@ -296,7 +303,7 @@ static PetscErrorCode WorkCreate_Private(const EstimateSum *sum, CellWork *w)
   PetscFunctionBegin;
   for (PetscInt c = 0; c < sum->v->num_cells; ++c)
     most = PetscMax(most, ElementNumNodes(sum->v->dim, LinePoints_Private(sum->v->dim, sum->v->cell_order[c], PETSC_TRUE) - 1));
-  const PetscInt points = most + sum->facets.most_points;
+  const PetscInt points = most + sum->facets.most_points + (1 << sum->v->dim);
   PetscCall(
       PetscMalloc7(3 * most, &w->X, 3 * points, &w->xi, 3 * points, &w->position, 9 * points, &w->J, 9 * points, &w->F, 9 * points, &w->P, points, &w->W));
   PetscCall(PetscMalloc5(most, &w->weight, 2 * most, &w->g, 3 * most, &w->R, 3 * most, &w->S, most, &w->recovered));
