@@ -35,7 +35,12 @@ PetscBool TextIsPlain(const char *text, const char *allowed);
    3.26, by more in 3.18. */
 void TextAppend(size_t capacity, char text[], const char *more);
 
-/* One row of -help: a name, what it may be, and on a line of its own what it means. Collective. */
+/* -help: its text, and rows of a key or option: a name, what it may be, and on a line of its own what it means. After HelpSeek(word) no text, and those rows
+   alone that have the word in their name; HelpShown: how many. "." and "_" are the same there, "-" before the word does not count; "": everything. The word is
+   borrowed, a text has 4095 characters at most. Text and rows are collective. */
+void           HelpSeek(const char *word);
+PetscInt       HelpShown(void);
+PetscErrorCode HelpText(MPI_Comm, const char *format, ...) PETSC_ATTRIBUTE_FORMAT(2, 3);
 PetscErrorCode HelpRow(MPI_Comm, const char *name, const char *allowed, const char *text);
 
 /* Install the error handler that keeps quiet about input errors and prints PETSc's traceback for all others. */

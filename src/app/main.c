@@ -220,39 +220,48 @@ static PetscErrorCode UnusedOptions_Private(void)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode Help_Private(void)
+/* word: keys and options that have it in their name, nothing else; "": everything. */
+static PetscErrorCode Help_Private(const char *word)
 {
   PetscFunctionBegin;
+  HelpSeek(word);
   PetscCall(ScenePrintHelp(PETSC_COMM_WORLD));
   PetscCall(SolverPrintHelp(PETSC_COMM_WORLD));
   PetscCall(PathPrintHelp(PETSC_COMM_WORLD));
   PetscCall(AppPrintHelp(PETSC_COMM_WORLD));
   PetscCall(
-      PetscPrintf(PETSC_COMM_WORLD,
-                  "\nA run prints a line for each adaptive pass: load step, pass, t, cells, unknowns (dofs), Newton iterations, nodes under contact pressure,\n"
-                  "relative estimated error, magnitude of the contact force (of several pairs the sum of the magnitudes; one by one in history.csv),\n"
-                  "seconds since the start. What else is known of each pass and each load step: adapt.csv, history.csv, summary.json.\n"
-                  "A line \"warning: ...\" tells of something that a run can be right with but its user may not mean; summary.json lists them.\n"
-                  "\nOptions of PETSc work as everywhere: -snes_monitor, -ksp_monitor, -log_view, ...\n\nExit status:\n"));
-  for (const ExitStatus *e = ExitStatuses; e->text; ++e) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  %d  %s\n", e->status, e->text));
+      HelpText(PETSC_COMM_WORLD,
+               "\nA run prints a line for each adaptive pass: load step, pass, t, cells, unknowns (dofs), Newton iterations, nodes under contact pressure,\n"
+               "relative estimated error, magnitude of the contact force (of several pairs the sum of the magnitudes; one by one in history.csv),\n"
+               "seconds since the start. What else is known of each pass and each load step: adapt.csv, history.csv, summary.json.\n"
+               "A line \"warning: ...\" tells of something that a run can be right with but its user may not mean; summary.json lists them.\n"
+               "\nOptions of PETSc work as everywhere: -snes_monitor, -ksp_monitor, -log_view, ...\n\nExit status:\n"));
+  for (const ExitStatus *e = ExitStatuses; e->text; ++e) PetscCall(HelpText(PETSC_COMM_WORLD, "  %d  %s\n", e->status, e->text));
+  PetscCheckInput(HelpShown(), "-help %.80s: no key or option has that in its name; -help alone tells all of them", word);
   PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscBool IsHelp_Private(const char *word)
+{
+  return (PetscBool)(!strcmp(word, "-help") || !strcmp(word, "--help") || !strcmp(word, "-h"));
 }
 
 static PetscErrorCode Main_Private(int argc, char **argv, int *status)
 {
   const PetscBool make = (PetscBool)(argc > 1 && !strcmp(argv[1], "new")), list = Asked_Private(argc, argv, "-list");
-  const PetscBool help    = (PetscBool)(Asked_Private(argc, argv, "-help") || Asked_Private(argc, argv, "--help") || Asked_Private(argc, argv, "-h"));
+  PetscBool       help    = PETSC_FALSE;
   const PetscBool version = Asked_Private(argc, argv, "--version");
 
   PetscFunctionBegin;
   PetscCall(StageRegister());
+  for (int i = 1; i < argc; ++i) help = (PetscBool)(help || IsHelp_Private(argv[i]));
   if (make || help || version || list) StopRelease();
   if (make)
     PetscCall(AppNew(PETSC_COMM_WORLD, argc - 2, argv + 2));
   else if (argc == 3 && !strcmp(argv[1], "-help") && !strcmp(argv[2], "json"))
     PetscCall(AppDescribe(PETSC_COMM_WORLD));
   else if (help)
-    PetscCall(Help_Private());
+    PetscCall(Help_Private(argc == 3 && IsHelp_Private(argv[1]) ? argv[2] : ""));
   else if (version)
     PetscCall(PetscPrintf(PETSC_COMM_WORLD, "mortise %s\n", MORTISE_VERSION));
   else if (list)

@@ -64,7 +64,7 @@ static const struct {
 PetscErrorCode AppPrintHelp(MPI_Comm comm)
 {
   PetscFunctionBegin;
-  PetscCall(PetscPrintf(comm, "\nOptions of the run, on the command line only.\n\n"));
+  PetscCall(HelpText(comm, "\nOptions of the run, on the command line only.\n\n"));
   for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(Options); ++i) PetscCall(HelpRow(comm, Options[i].name, Options[i].allowed, Options[i].text));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -296,9 +296,9 @@ PetscErrorCode PathPrintHelp(MPI_Comm comm)
   char name[64];
 
   PetscFunctionBegin;
-  PetscCall(PetscPrintf(comm,
-                        "\nRecoveries where a step or a finer mesh has no equilibrium that is found, in this order; on the command line only, default auto.\n"
-                        "summary.json counts them. on: whenever possible, not only after a shorter step has failed too.\n\n"));
+  PetscCall(HelpText(comm,
+                     "\nRecoveries where a step or a finer mesh has no equilibrium that is found, in this order; on the command line only, default auto.\n"
+                     "summary.json counts them. on: whenever possible, not only after a shorter step has failed too.\n\n"));
   for (PetscInt row = 0; row < PATH_RECOVERIES; ++row) {
     PetscCall(PetscSNPrintf(name, sizeof(name), "-" PREFIX "%s", PathRecoveries[row].name));
     PetscCall(HelpRow(comm, name, MODES, PathRecoveries[row].help));

@@ -257,23 +257,24 @@ PetscErrorCode ScenePrintHelp(MPI_Comm comm)
   char section[MORTISE_NAME] = "";
 
   PetscFunctionBegin;
-  PetscCall(PetscPrintf(comm,
-                        "mortise %s: adaptive mortar contact of bodies that deform a lot\n\n"
-                        "  mortise SCENE.yml [options]     solve; mpiexec -n 4 mortise ... on four processes\n"
-                        "  mortise SCENE.yml -check        say what would be solved, refuse what a run would refuse; solve and write nothing\n"
-                        "  mortise new NAME                write NAME.yml and NAME.geo, a commented scene to start from\n"
-                        "  mortise -help                   this text, also -h and --help; -help json: its tables, for programs\n"
-                        "  mortise -list                   models, laws with their parameters, boundary kinds\n"
-                        "  mortise --version               its version\n\n"
-                        "Keys of a scene. Any of them can be set on the command line, which wins over the file: material.rubber.E is -material_rubber_E.\n"
-                        "-options_file FILE reads such options from a file, one a line, values with spaces in quotes; the command line wins over it too.\n"
-                        "Expressions are in X, Y, Z (reference position), t (pseudo-time) and pi: \"0.1*Y*sin(pi*t)\". The program is free of units: use any\n"
-                        "consistent set; a word in [] names the kind of quantity.\n",
-                        MORTISE_VERSION));
+  PetscCall(HelpText(comm,
+                     "mortise %s: adaptive mortar contact of bodies that deform a lot\n\n"
+                     "  mortise SCENE.yml [options]     solve; mpiexec -n 4 mortise ... on four processes\n"
+                     "  mortise SCENE.yml -check        say what would be solved, refuse what a run would refuse; solve and write nothing\n"
+                     "  mortise new NAME                write NAME.yml and NAME.geo, a commented scene to start from\n"
+                     "  mortise -help                   this text, also -h and --help; -help WORD: keys and options with that word in them;\n"
+                     "                                  -help json: its tables, for programs\n"
+                     "  mortise -list                   models, laws with their parameters, boundary kinds\n"
+                     "  mortise --version               its version\n\n"
+                     "Keys of a scene. Any of them can be set on the command line, which wins over the file: material.rubber.E is -material_rubber_E.\n"
+                     "-options_file FILE reads such options from a file, one a line, values with spaces in quotes; the command line wins over it too.\n"
+                     "Expressions are in X, Y, Z (reference position), t (pseudo-time) and pi: \"0.1*Y*sin(pi*t)\". The program is free of units: use any\n"
+                     "consistent set; a word in [] names the kind of quantity.\n",
+                     MORTISE_VERSION));
   for (const Option *row = Options; row->pattern; ++row) {
     size_t n = strcspn(row->pattern, ".");
     if (strncmp(section, row->pattern, n) || section[n]) {
-      PetscCall(PetscPrintf(comm, "\n"));
+      PetscCall(HelpText(comm, "\n"));
       PetscCall(PetscSNPrintf(section, sizeof(section), "%.*s", (int)n, row->pattern));
     }
     PetscCall(PrintRow_Private(comm, row));

@@ -173,10 +173,10 @@ PetscErrorCode SolverCheckOptions(void)
 PetscErrorCode SolverPrintHelp(MPI_Comm comm)
 {
   PetscFunctionBegin;
-  PetscCall(PetscPrintf(comm, "\nOptions of the solver, on the command line only.\n\n"));
+  PetscCall(HelpText(comm, "\nOptions of the solver, on the command line only.\n\n"));
   for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(Options); ++i) PetscCall(HelpRow(comm, Options[i].name, Options[i].allowed, Options[i].text));
   PetscCall(
-      PetscPrintf(comm, "\nModifiers of Newton's iteration (docs/ablation.md). auto: each by its own criterion; on: as auto where nothing else is said.\n\n"));
+      HelpText(comm, "\nModifiers of Newton's iteration (docs/ablation.md). auto: each by its own criterion; on: as auto where nothing else is said.\n\n"));
   for (PetscInt i = 0; i < SolverNumModifiers(); ++i) {
     char name[64];
     PetscCall(PetscSNPrintf(name, sizeof(name), "-newton_%s", SolverModifierName(i)));

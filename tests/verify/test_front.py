@@ -98,6 +98,19 @@ def test_help_by_any_name():
     assert len(texts) == 1 and "mortise new NAME" in texts.pop()
 
 
+@pytest.mark.parametrize("word, rows", [("contact.<pair>.fric", {"contact.<pair>.friction"}), ("max_seconds", {"-max_seconds"}),
+                                        ("-newton_st", {"-newton_stall"}), ("Adapt_tol", {"adapt.tolerance"})])
+def test_help_of_a_word(word, rows):
+    """Keys and options with the word in their name, as it is in a file or on the command line, and no text besides."""
+    text = execute([str(PROGRAM), "-help", word])[1]
+    assert set(re.findall(r"^  (\S+)  ", text, re.M)) == rows and len(text.splitlines()) == 2 * len(rows), text
+
+
+def test_help_of_nothing():
+    status, out, err = execute([str(PROGRAM), "-help", "frict\x1bion"])
+    assert status == 1 and out == "" and "no key or option has that in its name" in err and "\x1b" not in err, err
+
+
 # ---- schema ---------------------------------------------------------------------------------------------------------------------
 
 
