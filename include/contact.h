@@ -69,6 +69,7 @@ typedef struct {
   PetscReal     search;            /* search distance, in multiples of the larger edge length; default 0: automatic */
   PetscBool     node_to_segment;   /* comparison only */
   PetscBool     see_through;       /* comparison only: searches take far sides of bodies behind for overlaps */
+  PetscBool     stabilise;         /* false, comparison only: multipliers of stiff facets that are shorter than the other side's are not stabilised */
   PetscBool     standard;          /* standard multipliers */
   PetscBool     adjust;            /* the gaps of the mesh at the reference positions count as closed */
   PetscBool     close;             /* law tied: gaps at the reference positions are closed, else they stay */
@@ -180,6 +181,8 @@ PetscErrorCode ContactPairSetCarriers(ContactPair, const ContactSurface *nonmort
    positions belongs to the forces. softness[nonmortar num_nodes]: facet size / Young's modulus, averaged on a facet; borrowed. Without it there are no
    compliances. Not collective. */
 void ContactPairSetSoftness(ContactPair, const PetscReal softness[]);
+/* What kappa has besides, whatever is covered, [nonmortar num_facets]; NULL (as created): nothing. Borrowed. Not collective. */
+void ContactPairSetStabilisation(ContactPair, const PetscReal kappa[]);
 /* Nodes of the nonmortar side that other pairs constrain as well (NULL: none): their facets have a compliance from then on, the largest one of a facet that is
    covered in part. parted: the pair is made once for each of several faces of the mortar side, and so are constraints of nodes on sharp edges of the nonmortar
    one: the same, but for slips alone. Borrowed. Not collective. */

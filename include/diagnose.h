@@ -17,6 +17,7 @@ typedef struct {
   PetscReal       area;             /* in contact: sum of the tributary lengths (areas) of active nodes */
   PetscReal       radius;           /* two dimensions: largest |x| of a touching point, see BalanceZone; three: of a circle of this area; 0 without contact */
   PetscReal       min_gap, max_gap; /* over covered nodes, gt_j / w_j; negative: penetration. 0 when nothing is covered */
+  PetscInt        stabilised;       /* facets whose multipliers are stabilised (ContactView) */
   PetscInt        unusable;         /* overlaps that could not be used (ContactView) */
   PetscReal       adjusted;         /* largest initial gap that was closed at a node (initial_gap: adjust) */
   PetscInt        active_nodes, covered_nodes;

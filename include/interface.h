@@ -101,6 +101,7 @@ typedef struct {
   ContactPair      pair;           /* segments of this rank's nonmortar facets */
   const PetscReal *normal;         /* [nonmortar.num_nodes][dim] of views gathered to all; else NULL: ContactPairGetNormals */
   PetscReal        area, min_gap;  /* totals over ranks */
+  PetscInt         stabilised;     /* facets of the nonmortar side whose multipliers are stabilised */
   PetscInt         unusable;       /* overlaps at the last evaluation that could not be used: facets folded over in the other's view */
   PetscReal        adjusted;       /* largest mean initial gap, over or under, that was closed at a node (initial_gap: adjust) */
   PetscReal        interference;   /* at the time last set */

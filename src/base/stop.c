@@ -2,8 +2,11 @@
    on it where they ask. */
 #include "base.h"
 #include <signal.h>
+#include <time.h>
 
 #define TIME_UP 1000 /* no signal has this number */
+
+#define AT_ONCE 1 /* seconds: what asks twice within them, as `timeout` does (the process, then its group), means one request */
 
 static volatile sig_atomic_t stop_signal;
 static PetscBool             stop_watched;
@@ -15,22 +18,33 @@ static PetscBool             stop_early;   /* before there was a mesh */
 static const struct {
   int         number;
   const char *name;
-  int         flags; /* SA_RESETHAND: the second one of the kind ends the program at once */
+  PetscBool   insists; /* a second one of the kind ends the program at once */
 } Signals[] = {
-    {SIGTERM, "SIGTERM", SA_RESETHAND},
-    {SIGUSR1, "SIGUSR1", SA_RESETHAND},
-    {SIGUSR2, "SIGUSR2", SA_RESETHAND}, /* before the kill, of some queues */
-    {SIGINT, "SIGINT", SA_RESETHAND},
-    {SIGQUIT, "SIGQUIT", SA_RESETHAND},
-    {SIGHUP, "SIGHUP", 0},   /* of terminal and shell, one after the other */
-    {SIGXCPU, "SIGXCPU", 0}, /* comes once a second */
-    {SIGPIPE, "SIGPIPE", 0}, /* at every line nobody reads */
+    {SIGTERM, "SIGTERM", PETSC_TRUE},  {SIGUSR1, "SIGUSR1", PETSC_TRUE}, {SIGUSR2, "SIGUSR2", PETSC_TRUE}, /* before the kill, of some queues */
+    {SIGINT, "SIGINT", PETSC_TRUE},    {SIGQUIT, "SIGQUIT", PETSC_TRUE}, {SIGHUP, "SIGHUP", PETSC_FALSE},  /* of terminal and shell, one after the other */
+    {SIGXCPU, "SIGXCPU", PETSC_FALSE},                                                                     /* comes once a second */
+    {SIGPIPE, "SIGPIPE", PETSC_FALSE},                                                                     /* at every line nobody reads */
 };
-static PetscBool stop_ignored[PETSC_STATIC_ARRAY_LENGTH(Signals)]; /* before anything of ours and of libraries: as under nohup */
+static struct timespec stop_first[PETSC_STATIC_ARRAY_LENGTH(Signals)];   /* when the first of a kind came; 0: it has not */
+static PetscBool       stop_ignored[PETSC_STATIC_ARRAY_LENGTH(Signals)]; /* before anything of ours and of libraries: as under nohup */
 
+/* Calls nothing but what a handler may. */
 static void Note_Private(int number)
 {
+  struct timespec now;
+
   stop_signal = number;
+  if (clock_gettime(CLOCK_MONOTONIC, &now)) return;
+  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(Signals); ++i) {
+    if (Signals[i].number != number || !Signals[i].insists) continue;
+    const double since = (double)(now.tv_sec - stop_first[i].tv_sec) + 1e-9 * (double)(now.tv_nsec - stop_first[i].tv_nsec);
+    if (!stop_first[i].tv_sec && !stop_first[i].tv_nsec)
+      stop_first[i] = now;
+    else if (since > AT_ONCE) {
+      (void)signal(number, SIG_DFL);
+      (void)raise(number); /* as soon as this handler is left */
+    }
+  }
 }
 
 static sigset_t Ours_Private(void)
@@ -72,7 +86,7 @@ PetscErrorCode StopWatch(PetscReal seconds)
   sigemptyset(&action.sa_mask);
   for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(Signals); ++i) {
     action.sa_handler = stop_ignored[i] ? SIG_IGN : Note_Private;
-    action.sa_flags   = SA_RESTART | Signals[i].flags;
+    action.sa_flags   = SA_RESTART;
     PetscCheck(!sigaction(Signals[i].number, &action, NULL), PETSC_COMM_SELF, PETSC_ERR_SYS, "sigaction failed for %s", Signals[i].name);
   }
   StopRelease();

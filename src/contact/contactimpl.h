@@ -44,6 +44,7 @@ struct _p_ContactPair {
   PetscInt                  num_degenerate;      /* overlaps of the last evaluation that could not be used */
   struct ContactMultiplier *multiplier;          /* functions of the facets */
   const PetscReal          *softness;            /* borrowed; NULL: no compliance */
+  const PetscReal          *stabilisation;       /* borrowed; NULL: none */
   const PetscReal          *closed;              /* borrowed: of nonmortar corners; NULL: 0 */
   const PetscBool          *shared;              /* borrowed: of nodes; NULL: no node is */
   PetscBool                 parted;              /* one of several for the faces of the mortar side */

@@ -244,6 +244,7 @@ static void AddPart_Private(const PairFigures *part, PairFigures *to)
   to->radius   = PetscMax(to->radius, part->radius);
   to->adjusted = PetscMax(to->adjusted, part->adjusted);
   to->unusable += part->unusable;
+  to->stabilised = PetscMax(to->stabilised, part->stabilised);
   to->active_nodes += part->active_nodes;
   to->covered_nodes += part->covered_nodes;
   to->friction.dissipation += part->friction.dissipation;

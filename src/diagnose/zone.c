@@ -103,5 +103,6 @@ PetscErrorCode BalanceZone(MPI_Comm comm, const ContactView *v, PairFigures *f)
   f->radius        = v->nonmortar.dim == 2 ? most[3] : PetscSqrtReal(f->area / PETSC_PI);
   f->adjusted      = v->adjusted;
   f->unusable      = v->unusable;
+  f->stabilised    = v->stabilised;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -176,6 +176,7 @@ PetscErrorCode ContactCreate_Private(Interface p, const ContactSpec *spec, Conta
   /* With small kinematics what facets cover does not change, and constraints of order 1 stay exact. */
   if (c->law->ties || higher || p->spec->kinematics != KINEMATICS_SMALL) ContactPairSetSoftness(c->pair, c->softness);
   PetscCall(ListFacets_Private(p, c));
+  PetscCall(ContactStabilise_Private(p, c));
   PetscCall(PetscCalloc1(c->side[0].num_facets, &c->watch));
   ContactPairSetMet(c->pair, c->side[1].met);
   SearchDistance_Private(c);
@@ -190,8 +191,8 @@ PetscErrorCode ContactDestroy_Private(Contact *c)
   PetscFunctionBegin;
   PetscCall(TieDestroy_Private(c));
   PetscCall(SlipDestroy_Private(c));
-  PetscCall(FreeAll(15, (void *[]){&c->kept, &c->watch, &c->frozen, &c->shared, &c->mean0, &c->all_real[0], &c->all_real[1], &c->all_active, &c->part[0],
-                                   &c->part[1], &c->link[0], &c->link[1], &c->pattern_offset, &c->pattern, &c->result}));
+  PetscCall(FreeAll(16, (void *[]){&c->stabilisation, &c->kept, &c->watch, &c->frozen, &c->shared, &c->mean0, &c->all_real[0], &c->all_real[1], &c->all_active,
+                                   &c->part[0], &c->part[1], &c->link[0], &c->link[1], &c->pattern_offset, &c->pattern, &c->result}));
   PetscCall(ContactPairDestroy(&c->pair));
   PetscCall(SurfaceDestroy_Private(&c->side[0]));
   PetscCall(SurfaceDestroy_Private(&c->side[1]));

@@ -178,6 +178,7 @@ typedef struct {
   PetscReal           *before;                   /* [n] weight at the last linearisation of nodes of facets covered in part; else infinite */
   PetscReal           *coupled;                  /* [n] sum of S_jl z_l over other nodes */
   PetscReal           *softness;                 /* [n] extent / E */
+  PetscReal           *stabilisation;            /* owned, by facet: kappa besides that of what is covered; NULL: none (stabilise.c) */
   PetscReal           *w0, *extent, *c;          /* [n] reference measure, its extent along the surface, E / extent */
   PetscReal           *change;                   /* [n] work: change of gt_j at fixed measure under an increment */
   PetscReal           *lift;                     /* [n] the same for the prescribed motion still to come */
@@ -487,6 +488,8 @@ PetscErrorCode ContactLeastOverlap_Private(Interface, const Contact *, PetscReal
    pairs those of the nonmortar side; whose facets have a compliance. After all surfaces are created. */
 PetscErrorCode ContactCrossings_Private(Interface, const Contact *, PetscBool ties, PetscBool crosses[]);
 PetscErrorCode ContactShared_Private(Interface, Contact *);
+/* stabilise.c: of pairs that have facets to be stabilised; after the softness of the nodes. Collective. */
+PetscErrorCode ContactStabilise_Private(Interface, Contact *);
 /* carrier.c: w0, extent and c of the nodes; which of them carry a multiplier. */
 PetscErrorCode ContactNodeScales_Private(Interface, Contact *);
 void           ContactCarriers_Private(Interface, Contact *);

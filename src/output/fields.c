@@ -185,6 +185,7 @@ const OutputField OutputSummaryFields[] = {
     {"contact.<pair>.max_gap", LENGTH, "largest gap at a node that faces the other side"},
     {"contact.<pair>.adjusted_gap", LENGTH, "largest initial gap that initial_gap: adjust closed"},
     {"contact.<pair>.unusable_overlaps", "", "overlaps of facets that could not be used"},
+    {"contact.<pair>.stabilised_facets", "", "facets of a stiff nonmortar side, shorter than those of the other one, whose pressures are stabilised"},
     {"contact.<pair>.dissipation", ENERGY, "friction: energy that it took in this step"},
     {"contact.<pair>.max_slip", LENGTH, "friction: largest slip of a touching node in this step"},
     {"contact.<pair>.sticking_nodes", "", "friction: touching nodes that stick"},

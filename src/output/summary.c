@@ -88,6 +88,7 @@ static void AddPair_Private(cJSON *contact, PetscInt dim, const ContactSpec *spe
   AddNumber_Private(pair, "max_gap", f->max_gap);
   AddNumber_Private(pair, "adjusted_gap", f->adjusted);
   AddNumber_Private(pair, "unusable_overlaps", (PetscReal)f->unusable);
+  AddNumber_Private(pair, "stabilised_facets", (PetscReal)f->stabilised);
   if (spec->law != CONTACT_COULOMB) return;
   AddNumber_Private(pair, "dissipation", f->friction.dissipation);
   AddNumber_Private(pair, "max_slip", f->friction.max_slip);

@@ -447,7 +447,7 @@ static PetscErrorCode CheckFriction_Private(Scene s, const SceneNode *node, Cont
 /* A tied pair is one by its kind, and has nothing of what contact may have besides. */
 static PetscErrorCode CheckTied_Private(Scene s, const SceneNode *node, ContactEntry *c)
 {
-  static const char *const Foreign[] = {"law", "penalty", "friction", "interference", "node_to_segment", "see_through", "surface"};
+  static const char *const Foreign[] = {"law", "penalty", "friction", "interference", "node_to_segment", "see_through", "stabilise", "surface"};
 
   PetscFunctionBegin;
   if (c->kind == 0) {

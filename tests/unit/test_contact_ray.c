@@ -187,15 +187,17 @@ static void CheckSeed(const Kind *kind, uint64_t seed, PetscInt first, PetscInt 
   Patch             nonmortar, mortar;
   ContactPair       pair;
   Sum               exact, moved[4];
-  PetscReal        *z, *softness, *closed, scale[3];
+  PetscReal        *z, *softness, *closed, *stabilisation, scale[3];
   uint64_t          signature;
   PetscInt          columns;
-  const PetscBool   closes = (PetscBool)(seed % 2 == 0), shares = (PetscBool)(seed % 3 == 0);
+  const PetscBool   closes = (PetscBool)(seed % 2 == 0), shares = (PetscBool)(seed % 3 == 0), stabilises = (PetscBool)(seed % 5 < 2);
   PetscBool        *shared;
   uint64_t          lengths = seed;
 
   MakePair(kind, &seed, &nonmortar, &mortar);
   CHECK_CALL(PetscMalloc4(nonmortar.s.num_nodes, &z, nonmortar.s.num_nodes, &softness, nonmortar.s.num_nodes, &closed, nonmortar.s.num_nodes, &shared));
+  CHECK_CALL(PetscMalloc1(nonmortar.s.num_facets, &stabilisation));
+  for (int f = 0; f < nonmortar.s.num_facets; f++) stabilisation[f] = 0.01 * f;
   for (int j = 0; j < nonmortar.s.num_nodes; j++) z[j] = Random(&seed);
   for (int j = 0; j < nonmortar.s.num_nodes; j++) softness[j] = 20 + 10 * Random(&seed); /* so that facets covered in part give as much as their gaps */
   CHECK_CALL(ContactPairCreate(kind->dim, kind->ring, &spec, &pair));
@@ -204,6 +206,7 @@ static void CheckSeed(const Kind *kind, uint64_t seed, PetscInt first, PetscInt 
   if (closes) ContactPairSetClosed(pair, closed);
   if (shares) ContactPairSetShared(pair, shared, PETSC_FALSE);
   if (!kind->hanging) ContactPairSetSoftness(pair, softness);
+  if (stabilises) ContactPairSetStabilisation(pair, stabilisation);
   SearchAll(pair, &nonmortar, &mortar, 0.5, 1e-3);
   SumCreate(&exact, &nonmortar, &mortar);
   SumEvaluate(&exact, pair, &nonmortar, &mortar, z, PETSC_TRUE);
@@ -256,6 +259,7 @@ static void CheckSeed(const Kind *kind, uint64_t seed, PetscInt first, PetscInt 
   PatchDestroy(&nonmortar);
   PatchDestroy(&mortar);
   CHECK_CALL(PetscFree4(z, softness, closed, shared));
+  CHECK_CALL(PetscFree(stabilisation));
   CHECK_CALL(ContactPairDestroy(&pair));
 }
 

@@ -247,6 +247,19 @@ def test_signals_stop_in_order(tmp_path, number, held):
     assert result.summary["load_steps"] == rows(tmp_path / "out")
 
 
+def test_asked_twice_at_once(tmp_path):
+    """As `timeout` asks, the process and then its group: one request. A second one later ends the program at once."""
+    process = start(tmp_path, text=block(tmp_path, **ENDLESS))
+    wait_for(lambda: rows(tmp_path / "out") > 1, process)
+    for _ in range(3):
+        process.send_signal(signal.SIGTERM)
+        time.sleep(0.002)  # so that each is heard, not one for all of them
+    output, errors = process.communicate(timeout=PATIENCE)
+    result = Result([], process.returncode, output, errors, tmp_path / "out")
+    assert result.returncode == 3 and result.summary["reason"].startswith("SIGTERM") and not errors, result
+    assert sorted(os.listdir(tmp_path / "out")) == ["adapt.csv", "checkpoint.h5", "history.csv", "summary.json"]
+
+
 def test_nobody_reads(tmp_path):
     """Standard output into a pipe whose reader goes, as `head` does."""
     process = start(tmp_path, text=block(tmp_path, **ENDLESS))

@@ -56,6 +56,12 @@ void ContactPairSetSoftness(ContactPair pair, const PetscReal softness[])
   pair->state.stands = PETSC_FALSE;
 }
 
+void ContactPairSetStabilisation(ContactPair pair, const PetscReal kappa[])
+{
+  pair->stabilisation = kappa;
+  pair->state.stands  = PETSC_FALSE;
+}
+
 PetscErrorCode ContactRayWorkDestroy(RayWork *work)
 {
   RayWork w = *work;
@@ -248,19 +254,20 @@ static PetscBool IsShared_Private(ContactPair pair, const ContactSurface *s, Pet
   return (PetscBool)(pair->parted && pair->keeps && HasSharpCorner_Private(w, s, facet));
 }
 
-/* Compliance of a facet that is covered in part, or has nodes that are shared. */
+/* Compliance of a facet that is covered in part, has nodes that are shared, or is stabilised. */
 static PetscErrorCode Compliance_Private(ContactPair pair, const ContactSurface *s, PetscInt facet, ContactFacet *out)
 {
   RayWork                  w          = pair->ray;
   const ContactMultiplier *multiplier = pair->multiplier;
   const PetscInt           first = multiplier->row_first[facet], nr = w->result.num_rows;
-  const PetscBool          shared = IsShared_Private(pair, s, facet);
+  const PetscBool          shared     = IsShared_Private(pair, s, facet);
+  const PetscReal          stabilised = pair->stabilisation ? pair->stabilisation[facet] : 0;
   PetscReal                sum = 0, softness = 0, *m;
 
   PetscFunctionBegin;
   out->compliance     = NULL;
   out->compliance_sum = 0;
-  if (!(w->share.part || shared) || !pair->softness || nr == 0) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!(w->share.part || shared || stabilised > 0) || !pair->softness || nr == 0) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ContactStoreReserve(&w->result.store, nr, &m));
   for (PetscInt r = 0; r < nr; r++) {
     sum += multiplier->measure[first + r];
@@ -268,6 +275,7 @@ static PetscErrorCode Compliance_Private(ContactPair pair, const ContactSurface 
   }
   for (PetscInt r = 0; r < nr; r++) m[r] = multiplier->measure[first + r] * softness / sum;
   if (shared) w->share.kappa[0] = ContactShareMost(w->facet.s.order), w->share.kappa[1] = w->share.kappa[2] = 0;
+  w->share.kappa[0] += stabilised;
   out->num_rows   = nr;
   out->compliance = m;
   for (int i = 0; i < 2; i++) out->kappa[i] = w->share.kappa[i];
