@@ -328,6 +328,7 @@ int main(int argc, char **argv)
     (void)fflush(NULL);
     _exit(StopWasEarly() ? 3 : 1);
   }
+  StopServed();
   CheckScreen_Private(&status);
   (void)fflush(NULL); /* now: mpiexec ends the other processes as soon as it sees one that has ended with a status */
   ierr = Finalize_Private();

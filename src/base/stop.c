@@ -134,6 +134,13 @@ PetscBool StopWasEarly(void)
   return stop_early;
 }
 
+void StopServed(void)
+{
+  sigset_t ours = Ours_Private();
+
+  if (stop_signal) (void)sigprocmask(SIG_BLOCK, &ours, NULL);
+}
+
 const char *StopReason(void)
 {
   return Name_Private(stop_decided);
