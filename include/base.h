@@ -98,13 +98,13 @@ PetscErrorCode           StageAdd(Stage, PetscReal seconds); /* time of an earli
 void StopBegin(void);
 void StopRelease(void);
 /* From now on SIGTERM, SIGUSR1, SIGUSR2, SIGINT, SIGQUIT, SIGHUP, SIGXCPU, SIGPIPE and (seconds > 0) this much wall time are requests to stop; a second one of
-   the first five does what it always did. */
+   the first five more than a second after the first does what it always did. */
 PetscErrorCode StopWatch(PetscReal seconds);
 /* Is there such a request on any rank of comm? It stays. Never without StopWatch. Collective. */
 PetscErrorCode StopAsked(MPI_Comm comm, PetscBool *stop);
-/* The run ends before there is anything to go on from; its error is told like wrong input, its exit status is 3. Of all ranks, not collective. */
 /* At the very end: a run that was stopped by a signal has done what was asked, and hears no more of them; others do. */
-void        StopServed(void);
+void StopServed(void);
+/* The run ends before there is anything to go on from; its error is told like wrong input, its exit status is 3. Of all ranks, not collective. */
 void        StopEarly(void);
 PetscBool   StopWasEarly(void);
 const char *StopReason(void); /* name of the signal, or -max_seconds; "": nobody asked */
