@@ -18,12 +18,16 @@ static PetscBool             stop_early;   /* before there was a mesh */
 static const struct {
   int         number;
   const char *name;
-  PetscBool   insists; /* a second one of the kind ends the program at once */
+  PetscBool   insists; /* another one of the kind after AT_ONCE ends the program */
 } Signals[] = {
-    {SIGTERM, "SIGTERM", PETSC_TRUE},  {SIGUSR1, "SIGUSR1", PETSC_TRUE}, {SIGUSR2, "SIGUSR2", PETSC_TRUE}, /* before the kill, of some queues */
-    {SIGINT, "SIGINT", PETSC_TRUE},    {SIGQUIT, "SIGQUIT", PETSC_TRUE}, {SIGHUP, "SIGHUP", PETSC_FALSE},  /* of terminal and shell, one after the other */
-    {SIGXCPU, "SIGXCPU", PETSC_FALSE},                                                                     /* comes once a second */
-    {SIGPIPE, "SIGPIPE", PETSC_FALSE},                                                                     /* at every line nobody reads */
+    {SIGTERM, "SIGTERM", PETSC_TRUE},  /* of kill, timeout and queues */
+    {SIGUSR1, "SIGUSR1", PETSC_TRUE},  /* some time before the kill, of some queues … */
+    {SIGUSR2, "SIGUSR2", PETSC_TRUE},  /* … and of others */
+    {SIGINT, "SIGINT", PETSC_TRUE},    /* of the keyboard … */
+    {SIGQUIT, "SIGQUIT", PETSC_TRUE},  /* … in earnest */
+    {SIGHUP, "SIGHUP", PETSC_FALSE},   /* of terminal and shell, one after the other */
+    {SIGXCPU, "SIGXCPU", PETSC_FALSE}, /* comes once a second */
+    {SIGPIPE, "SIGPIPE", PETSC_FALSE}, /* at every line nobody reads */
 };
 static struct timespec stop_first[PETSC_STATIC_ARRAY_LENGTH(Signals)];   /* when the first of a kind came; 0: it has not */
 static PetscBool       stop_ignored[PETSC_STATIC_ARRAY_LENGTH(Signals)]; /* before anything of ours and of libraries: as under nohup */
