@@ -163,8 +163,10 @@ const Option Options[] = {
     {"contact.<pair>.node_to_segment", KEY_BOOL, "", "false", "", "node-to-segment contact, for comparison only", PAIR(spec.node_to_segment)},
     {"contact.<pair>.see_through", KEY_BOOL, "", "false", "",
      "for comparison only: searches look through bodies and take the far side of one behind, within their distance, for an overlap", PAIR(spec.see_through)},
-    {"contact.<pair>.stabilise", KEY_BOOL, "", "false", "",
-     "true: in the plane, pressures on facets of a stiffer or rigid side that are shorter than those of the other one are stabilised", PAIR(spec.stabilise)},
+    {"contact.<pair>.stabilise", KEY_BOOL, "", "true", "",
+     "false, for comparison only: in the plane, pressures on facets of a stiffer or rigid side that are much shorter than those of the other one are not "
+     "stabilised",
+     PAIR(spec.stabilise)},
 
     {"load.end", KEY_REAL, "pseudo-time", "1", POSITIVE, "t runs from 0 to here", SCENE(data.load.end)},
     {"load.step", KEY_REAL, "pseudo-time", "", POSITIVE, "first step, 1e-8 of end or more; default: end/10", SCENE(data.load.step)},

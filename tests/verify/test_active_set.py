@@ -25,7 +25,7 @@ def test_one_node_at_a_time(run):
 
 def test_stabilised(run):
     """Where the multipliers are stabilised hardly any set goes in circles, and told errors are a third."""
-    s, naive = counts(run(*SCENE, "-contact_c_stabilise", "true")), counts(run(*LAYER))
+    s, naive = counts(run(*SCENE)), counts(run(*LAYER))
     assert s["contact"]["c"]["stabilised_facets"] > 0 and s["factorisations"] < 0.5 * naive["factorisations"]
     assert s["estimated_error"] < 0.4 * naive["estimated_error"]
 

@@ -51,8 +51,9 @@ def test_o105_hertz(run, n):
 
 
 def cylinder(run, *options):
-    """Relative errors of the displacements of the flat, on which the force acts, and of the block's centre, and of the largest pressure."""
-    summary = solved(run, "inputs/cylinder.yml", *QUIET, *GIVEN, *ONE_MESH, "-load_step", 0.5, "-refine_arc_levels", 1, "-refine_top_levels", 1, "-probe_flat_x", 0, "-probe_flat_y", 50,
+    """Relative errors of the displacements of the flat, on which the force acts, and of the block's centre, and of the largest pressure. Not stabilised: the
+    orders of faces alone are compared."""
+    summary = solved(run, "inputs/cylinder.yml", *QUIET, *GIVEN, "-contact_cylinder_on_block_stabilise", "false", *ONE_MESH, "-load_step", 0.5, "-refine_arc_levels", 1, "-refine_top_levels", 1, "-probe_flat_x", 0, "-probe_flat_y", 50,
                      *options).summary
     flat, centre = (summary["probe"][name]["displacement"][1] / limit - 1 for name, limit in (("flat", FLAT), ("centre", CENTRE)))
     return flat, centre, summary["contact"]["cylinder_on_block"]["max_pressure"] / PEAK - 1

@@ -1,8 +1,10 @@
 """Multipliers of a rigid nonmortar side with shorter facets than the mortar side (src/interface/stabilise.c)."""
 import json
 import pathlib
+import re
 
 import pytest
+from contactkit import is_quadratic, steps
 
 TIP = "tests/gauntlet/wedge_tip.yml"
 ENERGY = 0.0028852  # of 80 and 160 cells, order 3 on 60
@@ -41,13 +43,23 @@ def test_patch(run, order, model):
     scene = {"mesh": {"file": str(PLATE)}, "model": "plane_strain", "kinematics": model, "order": order, "body": {"block": {"material": "soft"}, "plate": {"material": "hard"}},
              "material": {"soft": {**law, "E": 1}, "hard": {**law, "E": 1000}},
              "boundary": {"bottom": {"fix": "y"}, "sides": {"fix": "x"}, "walls": {"fix": "x"}, "head": {"displacement": {"y": "-0.1*t"}}},
-             "contact": {"c": {"nonmortar": "under", "mortar": "top", "roles": "given", "stabilise": True}}, "load": {"step": 1}}
+             "contact": {"c": {"nonmortar": "under", "mortar": "top", "roles": "given"}}, "load": {"step": 1}}
     result = run("s.yml", text=json.dumps(scene))
     assert result.returncode == 0, result
     pair, stiffness = result.summary["contact"]["c"], 0.7 / (1.3 * 0.4)  # of uniaxial strain
     assert pair["stabilised_facets"] == 7 and pair["max_pressure"] == pytest.approx(abs(pair["force"][1]), rel=1e-9)  # constant over the length 1
     if model == "small":
         assert pair["max_pressure"] == pytest.approx(0.1 * stiffness / (1 + 1e-3), rel=1e-9)
+
+
+@pytest.mark.parametrize("friction", [0, 0.3])
+def test_tangent(run, friction):
+    """Derivatives by differences (the first iterate touches without pressure, a kink), and Newton's order."""
+    scene = (TIP, "-output_fields", "false", "-load_step", 1, "-contact_c_friction", friction, "-snes_monitor")
+    result = run(*scene, "-mesh_parameter_n", 10, "-mesh_parameter_h", 0.06, "-snes_test_jacobian")
+    ratios = [float(value) for value in re.findall(r"\|\|J - Jfd\|\|_F/\|\|J\|\|_F = (\S+?),", result.stdout)]
+    assert result.summary["contact"]["c"]["stabilised_facets"] > 0 and len(ratios) >= 3 and max(ratios[1:]) < 1e-6, (ratios, result)
+    assert is_quadratic(steps(run(*scene))[-1]), result
 
 
 def test_ranks(run):
